@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/geometry.h"
+
+namespace nanomap {
+
+/// Brown-Conrady coefficients in OpenCV's order and sign; all zero means a plain pinhole.
+struct Distortion {
+  double k1 = 0.0;
+  double k2 = 0.0;
+  double p1 = 0.0;
+  double p2 = 0.0;
+  double k3 = 0.0;
+
+  [[nodiscard]] bool isZero() const { return k1 == 0.0 && k2 == 0.0 && p1 == 0.0 && p2 == 0.0 && k3 == 0.0; }
+};
+
+/// What a depth camera is. Pixel centres lie at integer coordinates: pixel (u, v) covers u-0.5 .. u+0.5.
+struct CameraParameters {
+  int width_px = 0;
+  int height_px = 0;
+  double fx_px = 0.0;
+  double fy_px = 0.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+  Distortion distortion;
+  Pose T_B_C;                                              ///< camera (RDF) in body (FLU), lever arm included
+  double depth_unit_m = 0.001;                             ///< metres per count
+  double min_range_m = 0.0;                                ///< nearest trusted depth along the optical axis
+  double max_range_m = 0.0;                                ///< farthest trusted depth along the optical axis
+  std::vector<std::uint16_t> no_return_values = {0, 65535};  ///< raw values that mean "no depth"
+};
+
+/// What a raw depth value says about its ray.
+enum class DepthReading : std::uint8_t {
+  kNone,     ///< the sensor gave no depth
+  kTooNear,  ///< a return nearer than the trusted range: something is there, where is not known
+  kInRange,
+  kTooFar,   ///< a return beyond the trusted range: the ray is free up to the range limit
+};
+
+/// The view frustum in camera frame C (RDF): tangents x/z and y/z of its side planes, depths of its near and far planes.
+struct Frustum {
+  double tan_left = 0.0;
+  double tan_right = 0.0;
+  double tan_top = 0.0;
+  double tan_bottom = 0.0;
+  double near_m = 0.0;
+  double far_m = 0.0;
+};
+
+/// Pinhole camera with optional Brown-Conrady distortion. Distortion is undone once, here, into lookups: neither
+/// deprojection nor projection evaluates or inverts the polynomial afterwards.
+/// With distortion the frustum is the largest upright rectangle of tangents inside the curved image border, so that
+/// whatever is in the frustum has a pixel.
+/// Threads: immutable, any number of readers.
+class CameraModel {
+ public:
+  /// @throws std::invalid_argument naming the parameter and its value: sizes and focal lengths must be positive, the
+  ///         range must be 0 <= min < max, the depth unit positive, the extrinsic rotation a unit quaternion, and the
+  ///         distortion invertible over the whole image.
+  explicit CameraModel(CameraParameters parameters);
+
+  [[nodiscard]] const CameraParameters& parameters() const { return parameters_; }
+  [[nodiscard]] const Frustum& frustum() const { return frustum_; }
+  [[nodiscard]] int width() const { return parameters_.width_px; }
+  [[nodiscard]] int height() const { return parameters_.height_px; }
+  [[nodiscard]] std::size_t pixelCount() const {
+    return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+  }
+
+  [[nodiscard]] DepthReading classify(std::uint16_t raw) const;
+
+  /// Depth along the optical axis [m] of a raw value that is a return.
+  [[nodiscard]] float depth(std::uint16_t raw) const { return static_cast<float>(raw) * depth_unit_m_; }
+
+  /// Point in C [m] seen by the pixel with row-major index `pixel` at raw depth `raw` (a return).
+  [[nodiscard]] Vec3f deproject(std::size_t pixel, std::uint16_t raw) const {
+    const float z_m = depth(raw);
+    return {ray_tangents_[pixel].x() * z_m, ray_tangents_[pixel].y() * z_m, z_m};
+  }
+
+  struct Pixel {
+    int u = 0;
+    int v = 0;
+  };
+
+  /// The pixel whose ray is nearest to the tangents (x/z, y/z); empty outside the frustum's sides.
+  [[nodiscard]] std::optional<Pixel> pixelAt(double tan_x, double tan_y) const;
+
+ private:
+  void undistortOnce();
+
+  CameraParameters parameters_;
+  float depth_unit_m_;
+  Frustum frustum_;
+  std::vector<Eigen::Vector2f> ray_tangents_;   ///< row-major, one a pixel
+  std::vector<std::int32_t> distorted_pixel_;   ///< ideal pinhole pixel -> image pixel; empty without distortion
+};
+
+}  // namespace nanomap

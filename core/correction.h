@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/pose_buffer.h"
+
+namespace nanomap {
+
+/// One corrected pose of a sliding-window estimator.
+struct CorrectedPose {
+  Time stamp{};
+  Pose T_W_B;
+};
+
+/// A time-ordered sequence of corrected world poses: the window.
+struct Correction {
+  std::uint32_t epoch = 0;  ///< of the world the corrected poses are given in
+  std::uint64_t sequence = 0;
+  std::vector<CorrectedPose> poses;
+};
+
+enum class CorrectionVerdict : std::uint8_t {
+  kAccepted,
+  kEmpty,
+  kNotOrdered,  ///< stamps do not increase
+  kNotFinite,
+  kNotUnit,
+  kStaleEpoch,  ///< an older world than the pose stream's
+  kOutOfOrder,  ///< its sequence number is not above the last accepted one's
+  kNoOverlap,   ///< no original pose is held for any of its stamps
+};
+inline constexpr std::size_t kCorrectionVerdictCount = 8;
+
+[[nodiscard]] std::string_view toString(CorrectionVerdict verdict);
+
+/// kAccepted if the window is well formed by itself, else what is wrong with it.
+[[nodiscard]] CorrectionVerdict checkCorrection(const Correction& correction);
+
+/// A correction as a field of deltas over time: `T_Wnew_Wold(t)`, such that the corrected pose is the delta times the
+/// original. Deltas, not poses, are interpolated, so that a sparse window (2 Hz) keeps the motion between its stamps.
+/// Behind the window's end the last delta is carried on: a correction is always late.
+/// Threads: immutable.
+class CorrectionField {
+ public:
+  /// Pairs each corrected pose with the original one at its stamp; those without an original are left out.
+  /// @pre checkCorrection() accepted it
+  CorrectionField(const Correction& correction, const PoseBuffer& originals);
+
+  enum class Coverage : std::uint8_t {
+    kNone,     ///< before the window, or of a world that the window does not reach
+    kInside,   ///< interpolated inside the window
+    kCarried,  ///< newer than the window: the last delta
+  };
+  struct Corrected {
+    Coverage coverage = Coverage::kNone;
+    Pose T_W_B;  ///< in the correction's world; valid if covered
+  };
+
+  /// The corrected version of an original pose.
+  [[nodiscard]] Corrected apply(Time stamp, const Pose& T_W_B_original, std::uint32_t epoch) const;
+
+  [[nodiscard]] bool empty() const { return anchors_.empty(); }
+  [[nodiscard]] std::size_t anchorCount() const { return anchors_.size(); }
+
+ private:
+  struct Anchor {
+    Time stamp{};
+    std::uint32_t epoch = 0;  ///< of the original pose
+    Pose T_Wnew_Wold;
+  };
+
+  std::uint32_t epoch_;
+  std::vector<Anchor> anchors_;
+};
+
+}  // namespace nanomap

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace nanomap {
+
+using Vec3 = Eigen::Vector3d;
+using Vec3f = Eigen::Vector3f;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;
+
+/// Rigid transform. A variable of this type is named `T_A_B`: it maps a point given in B to A,
+/// `p_A = T_A_B * p_B`, and neighbouring letters meet in a product, `T_A_C = T_A_B * T_B_C`.
+struct Pose {
+  Quat rotation = Quat::Identity();  ///< unit quaternion, R_A_B
+  Vec3 translation_m = Vec3::Zero();  ///< B's origin in A
+
+  [[nodiscard]] Pose inverse() const {
+    const Quat rotation_inverse = rotation.conjugate();
+    return {rotation_inverse, -(rotation_inverse * translation_m)};
+  }
+};
+
+[[nodiscard]] inline Pose operator*(const Pose& T_A_B, const Pose& T_B_C) {
+  return {(T_A_B.rotation * T_B_C.rotation).normalized(),
+          T_A_B.rotation * T_B_C.translation_m + T_A_B.translation_m};
+}
+
+[[nodiscard]] inline Vec3 operator*(const Pose& T_A_B, const Vec3& p_B) {
+  return T_A_B.rotation * p_B + T_A_B.translation_m;
+}
+
+/// Linear in translation, shortest-arc slerp in rotation. `weight` 0 gives `from`, 1 gives `to`.
+[[nodiscard]] inline Pose interpolate(const Pose& from, const Pose& to, double weight) {
+  return {from.rotation.slerp(weight, to.rotation).normalized(),
+          from.translation_m + weight * (to.translation_m - from.translation_m)};
+}
+
+/// A Gaussian point: mean [m] and covariance [m^2], both in the frame that ends the variable's name (`x_B`).
+struct UncertainPoint {
+  Vec3 mean_m = Vec3::Zero();
+  Mat3 covariance_m2 = Mat3::Zero();
+};
+
+}  // namespace nanomap
