@@ -29,10 +29,10 @@ struct CameraParameters {
   double cx_px = 0.0;
   double cy_px = 0.0;
   Distortion distortion;
-  Pose T_B_C;                                              ///< camera (RDF) in body (FLU), lever arm included
-  double depth_unit_m = 0.001;                             ///< metres per count
-  double min_range_m = 0.0;                                ///< nearest trusted depth along the optical axis
-  double max_range_m = 0.0;                                ///< farthest trusted depth along the optical axis
+  Pose T_B_C;                                                ///< camera (RDF) in body (FLU), lever arm included
+  double depth_unit_m = 0.001;                               ///< metres per count
+  double min_range_m = 0.0;                                  ///< nearest trusted depth along the optical axis
+  double max_range_m = 0.0;                                  ///< farthest trusted depth along the optical axis
   std::vector<std::uint16_t> no_return_values = {0, 65535};  ///< raw values that mean "no depth"
 };
 
@@ -41,10 +41,11 @@ enum class DepthReading : std::uint8_t {
   kNone,     ///< the sensor gave no depth
   kTooNear,  ///< a return nearer than the trusted range: something is there, where is not known
   kInRange,
-  kTooFar,   ///< a return beyond the trusted range: the ray is free up to the range limit
+  kTooFar,  ///< a return beyond the trusted range: the ray is free up to the range limit
 };
 
-/// The view frustum in camera frame C (RDF): tangents x/z and y/z of its side planes, depths of its near and far planes.
+/// The view frustum in camera frame C (RDF): tangents x/z and y/z of its side planes, depths of its near and far
+/// planes.
 struct Frustum {
   double tan_left = 0.0;
   double tan_right = 0.0;
@@ -85,6 +86,9 @@ class CameraModel {
     return {ray_tangents_[pixel].x() * z_m, ray_tangents_[pixel].y() * z_m, z_m};
   }
 
+  /// Tangents x/z and y/z in C of the ray through the pixel with row-major index `pixel`.
+  [[nodiscard]] const Eigen::Vector2f& rayTangents(std::size_t pixel) const { return ray_tangents_[pixel]; }
+
   struct Pixel {
     int u = 0;
     int v = 0;
@@ -99,8 +103,8 @@ class CameraModel {
   CameraParameters parameters_;
   float depth_unit_m_;
   Frustum frustum_;
-  std::vector<Eigen::Vector2f> ray_tangents_;   ///< row-major, one a pixel
-  std::vector<std::int32_t> distorted_pixel_;   ///< ideal pinhole pixel -> image pixel; empty without distortion
+  std::vector<Eigen::Vector2f> ray_tangents_;  ///< row-major, one a pixel
+  std::vector<std::int32_t> distorted_pixel_;  ///< ideal pinhole pixel -> image pixel; empty without distortion
 };
 
 }  // namespace nanomap

@@ -21,7 +21,7 @@ struct ChainParameters {
   std::size_t pose_capacity = 4096;
   Duration max_pose_gap = std::chrono::milliseconds(100);
   Duration max_lead = std::chrono::milliseconds(500);  ///< a view farther ahead of the newest pose is from the future
-  DriftModel drift;
+  DriftModel drift{};
 };
 
 /// Why a view never entered the chain.
@@ -55,7 +55,7 @@ struct ChainCounters {
 
 /// An edge of the chain, as it stands.
 struct Edge {
-  Pose T_older_newer;         ///< T_{C_i}_{C_{i-1}}; for the first edge T_{C_0}_B
+  Pose T_older_newer;                       ///< T_{C_i}_{C_{i-1}}; for the first edge T_{C_0}_B
   Mat3 covariance_older_m2 = Mat3::Zero();  ///< translational, in the frame of the older end
 };
 
@@ -99,40 +99,53 @@ class Chain {
   [[nodiscard]] const ChainCounters& counters() const { return counters_; }
 
  private:
-  /// A moment of the vehicle in the chain: its original pose, and what the last correction that reached it says.
+  /// A moment of the vehicle: its original pose, and where the last correction that reached it puts it.
   struct Station {
     Time stamp{};
     std::uint32_t epoch = 0;  ///< of the original
     Pose T_W_B_original;
-    bool inside_window = false;                      ///< of the correction below
-    std::optional<std::uint64_t> correction_serial;  ///< which correction covers it
-    Pose T_W_B_corrected;                            ///< valid if covered
+    CorrectionField::Coverage coverage = CorrectionField::Coverage::kNone;
+    std::uint64_t correction_serial = 0;  ///< of that correction, 0 without one
+    std::uint32_t world_epoch = 0;        ///< of the pose below
+    Pose T_W_B;                           ///< corrected, or the original without a correction
   };
   struct Link {
     ViewPtr view;
     Station station;
-    std::optional<Pose> T_this_newer;  ///< to the next newer view's camera frame; empty if cut, or if newest
+    std::optional<Pose> T_this_newer;  ///< to the next newer view's camera; empty if cut by a jump, or if newest
     std::optional<Mat3> increment_covariance_W_m2;  ///< of that edge, from the messages
   };
 
-  [[nodiscard]] Station stationAt(Time stamp, const Pose& T_W_B_original, std::uint32_t epoch) const;
-  /// T_older_newer between bodies, or empty if the world jumped between them and no correction tells how.
-  [[nodiscard]] static std::optional<Pose> relative(const Station& older, const Station& newer);
-  void applyCorrection(Station& station) const;
+  ViewOutcome admit(const ViewPtr& view);
   std::size_t admitWaiting();
-  bool admit(ViewPtr view);
-  void count(ViewDrop drop);
+  ViewOutcome drop(ViewDrop reason);
+
+  [[nodiscard]] CorrectionVerdict tryCorrection(const Correction& correction);
+  void applyCorrection(Station& station) const;
+  void correctEdge(Link& older, const Link& newer);
+
+  [[nodiscard]] Station stationAt(Time stamp, const Pose& T_W_B_original, std::uint32_t epoch) const;
+  [[nodiscard]] std::optional<Mat3> incrementBetween(Time older, Time newer) const;
+  /// T_Bolder_Bnewer, or empty if the world jumped between the two and no correction tells how.
+  [[nodiscard]] static std::optional<Pose> relative(const Station& older, const Station& newer);
+  [[nodiscard]] static std::optional<Pose> edgeBetween(const Link& older, const Link& newer);
+  [[nodiscard]] static const Pose& bodyFromCamera(const Link& link);
+  [[nodiscard]] static Pose cameraFromBody(const Link& link);
   template <class Visitor>
-  void walk(Visitor&& visit) const;
+  void walkEdges(Visitor&& visit) const;
+
+  struct CorrectionId {
+    std::uint32_t epoch = 0;
+    std::uint64_t sequence = 0;
+  };
 
   ChainParameters parameters_;
   PoseBuffer poses_;
   RingBuffer<Link> links_;       ///< newest at the front
   RingBuffer<ViewPtr> waiting_;  ///< oldest at the front
   std::optional<CorrectionField> correction_;
-  std::uint64_t correction_serial_ = 0;
-  std::optional<std::uint64_t> last_correction_sequence_;
-  std::uint32_t last_correction_epoch_ = 0;
+  std::uint64_t correction_serial_ = 0;  ///< counts the accepted corrections
+  std::optional<CorrectionId> last_correction_;
   ChainCounters counters_;
 };
 

@@ -10,8 +10,8 @@ namespace nanomap {
 
 /// One organised 16-bit depth frame as it was measured.
 struct DepthImage {
-  Time stamp{};                       ///< start of exposure
-  std::uint64_t sequence = 0;         ///< the source's own count
+  Time stamp{};                ///< start of exposure
+  std::uint64_t sequence = 0;  ///< the source's own count
   int width_px = 0;
   int height_px = 0;
   double depth_unit_m = 0.001;        ///< metres per count

@@ -13,7 +13,7 @@ using Quat = Eigen::Quaterniond;
 /// Rigid transform. A variable of this type is named `T_A_B`: it maps a point given in B to A,
 /// `p_A = T_A_B * p_B`, and neighbouring letters meet in a product, `T_A_C = T_A_B * T_B_C`.
 struct Pose {
-  Quat rotation = Quat::Identity();  ///< unit quaternion, R_A_B
+  Quat rotation = Quat::Identity();   ///< unit quaternion, R_A_B
   Vec3 translation_m = Vec3::Zero();  ///< B's origin in A
 
   [[nodiscard]] Pose inverse() const {
@@ -23,8 +23,7 @@ struct Pose {
 };
 
 [[nodiscard]] inline Pose operator*(const Pose& T_A_B, const Pose& T_B_C) {
-  return {(T_A_B.rotation * T_B_C.rotation).normalized(),
-          T_A_B.rotation * T_B_C.translation_m + T_A_B.translation_m};
+  return {(T_A_B.rotation * T_B_C.rotation).normalized(), T_A_B.rotation * T_B_C.translation_m + T_A_B.translation_m};
 }
 
 [[nodiscard]] inline Vec3 operator*(const Pose& T_A_B, const Vec3& p_B) {

@@ -28,12 +28,12 @@ struct BodyPose {
 
 enum class PoseVerdict : std::uint8_t {
   kAccepted,
-  kDuplicate,    ///< same stamp, same pose: re-sent
-  kConflict,     ///< same stamp, another pose: the first stays
-  kTooOld,       ///< before everything that a full buffer still holds
-  kNotFinite,    ///< NaN or infinity in position or orientation
-  kNotUnit,      ///< the orientation is not a unit quaternion (norm off by more than 0.001)
-  kStaleEpoch,   ///< its epoch and stamp contradict the poses around it
+  kDuplicate,   ///< same stamp, same pose: re-sent
+  kConflict,    ///< same stamp, another pose: the first stays
+  kTooOld,      ///< before everything that a full buffer still holds
+  kNotFinite,   ///< NaN or infinity in position or orientation
+  kNotUnit,     ///< the orientation is not a unit quaternion (norm off by more than 0.001)
+  kStaleEpoch,  ///< its epoch and stamp contradict the poses around it
 };
 inline constexpr std::size_t kPoseVerdictCount = 7;
 

@@ -21,8 +21,8 @@ enum class OcclusionTest : std::uint8_t {
 struct QueryOptions {
   int k = 1;  ///< neighbours wanted, 1 .. kMaxNeighbours
   OcclusionTest occlusion = OcclusionTest::kMean;
-  int open_window_px = 32;            ///< half side of the window that tells sky from a hole
-  double open_range_fraction = 0.7;   ///< returns beyond this part of the range do not speak against sky
+  int open_window_px = 32;           ///< half side of the window that tells sky from a hole
+  double open_range_fraction = 0.7;  ///< returns beyond this part of the range do not speak against sky
 };
 
 struct QueryReply {

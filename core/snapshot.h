@@ -25,8 +25,8 @@ struct SnapshotView {
 
 /// The chain at the moment of its newest pose. Read it from any number of threads while the chain moves on.
 struct ChainSnapshot {
-  Time stamp{};                     ///< of the body frame B
-  Pose T_W_B;                       ///< as the estimator gave it
+  Time stamp{};  ///< of the body frame B
+  Pose T_W_B;    ///< as the estimator gave it
   std::uint32_t epoch = 0;
   std::uint64_t pose_sequence = 0;
   std::vector<SnapshotView> views;  ///< newest first

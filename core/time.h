@@ -23,9 +23,7 @@ struct Timeline {
 using Time = std::chrono::time_point<Timeline, Duration>;
 
 /// [s]. For display, rates and interpolation weights; never to identify a moment.
-[[nodiscard]] constexpr double toSeconds(Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
+[[nodiscard]] constexpr double toSeconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 /// Nearest nanosecond to `seconds` [s].
 [[nodiscard]] inline Duration fromSeconds(double seconds) { return Duration(std::llround(seconds * 1e9)); }

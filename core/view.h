@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -36,8 +37,8 @@ class View {
 
   /// Raw value at column `u`, row `v` inside the image.
   [[nodiscard]] std::uint16_t rawAt(int u, int v) const {
-    return image_.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image_.width_px) +
-                         static_cast<std::size_t>(u)];
+    return image_
+        .pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image_.width_px) + static_cast<std::size_t>(u)];
   }
 
  private:

@@ -1,0 +1,139 @@
+#include "core/query.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace nanomap {
+namespace {
+
+/// Is the box mean +- half_size inside the frustum? Each plane is tested against the box's support in its direction.
+bool contains(const Frustum& frustum, const Vec3& mean_C, const Vec3& half_size_C) {
+  const auto side = [&](int axis, double tangent, double sign) {
+    const double distance = sign * (mean_C[axis] - tangent * mean_C.z());
+    return distance >= half_size_C[axis] + std::abs(tangent) * half_size_C.z();
+  };
+  return side(0, frustum.tan_left, 1.0) && side(0, frustum.tan_right, -1.0) &&  //
+         side(1, frustum.tan_top, 1.0) && side(1, frustum.tan_bottom, -1.0) &&  //
+         mean_C.z() - half_size_C.z() >= frustum.near_m && mean_C.z() + half_size_C.z() <= frustum.far_m;
+}
+
+/// Columns and rows of an image, ends included.
+struct PixelRect {
+  int u_min, u_max, v_min, v_max;
+};
+
+/// Is there a return in `rect` for which `speaksAgainst(raw, reading)` holds?
+template <class Predicate>
+bool anyReturn(const View& view, const PixelRect& rect, Predicate&& speaks_against) {
+  for (int v = rect.v_min; v <= rect.v_max; ++v) {
+    for (int u = rect.u_min; u <= rect.u_max; ++u) {
+      const std::uint16_t raw = view.rawAt(u, v);
+      const DepthReading reading = view.camera().classify(raw);
+      if (reading != DepthReading::kNone && speaks_against(static_cast<double>(view.camera().depth(raw)))) return true;
+    }
+  }
+  return false;
+}
+
+/// Sky rather than a hole: every return in the window lies far away, or there is none.
+bool isOpen(const View& view, CameraModel::Pixel pixel, const QueryOptions& options) {
+  const int reach = options.open_window_px;
+  const PixelRect window{std::max(pixel.u - reach, 0), std::min(pixel.u + reach, view.camera().width() - 1),
+                         std::max(pixel.v - reach, 0), std::min(pixel.v + reach, view.camera().height() - 1)};
+  const double far_m = options.open_range_fraction * view.camera().frustum().far_m;
+  return !anyReturn(view, window, [&](double depth_m) { return depth_m <= far_m; });
+}
+
+/// Does a return in the box's pixel footprint lie in front of the box's far face? @pre the box is in the frustum
+bool occludesBox(const View& view, const Vec3& mean_C, const Vec3& half_size_C) {
+  const double near_z_m = mean_C.z() - half_size_C.z();
+  const double far_z_m = mean_C.z() + half_size_C.z();
+  if (!(near_z_m > 0.0)) return true;
+  // A tangent is extreme at the near face where it points away from the axis, else at the far face.
+  const auto lowest = [&](double low) { return low / (low < 0.0 ? near_z_m : far_z_m); };
+  const auto highest = [&](double high) { return high / (high > 0.0 ? near_z_m : far_z_m); };
+  const Vec3 low = mean_C - half_size_C;
+  const Vec3 high = mean_C + half_size_C;
+  const Frustum& frustum = view.camera().frustum();
+  const auto clampX = [&](double tangent) { return std::clamp(tangent, frustum.tan_left, frustum.tan_right); };
+  const auto clampY = [&](double tangent) { return std::clamp(tangent, frustum.tan_top, frustum.tan_bottom); };
+  const double tan_x[] = {clampX(lowest(low.x())), clampX(highest(high.x()))};
+  const double tan_y[] = {clampY(lowest(low.y())), clampY(highest(high.y()))};
+  PixelRect footprint{view.camera().width() - 1, 0, view.camera().height() - 1, 0};
+  for (const double x : tan_x) {
+    for (const double y : tan_y) {
+      const CameraModel::Pixel corner = *view.camera().pixelAt(x, y);
+      footprint = {std::min(footprint.u_min, corner.u), std::max(footprint.u_max, corner.u),
+                   std::min(footprint.v_min, corner.v), std::max(footprint.v_max, corner.v)};
+    }
+  }
+  return anyReturn(view, footprint, [&](double depth_m) { return depth_m <= far_z_m; });
+}
+
+/// diag(R * Sigma * R^T) without the rest of it: all that the containment test needs.
+Vec3 rotatedDiagonal(const Mat3& R, const Mat3& covariance_m2) {
+  return (R * covariance_m2).cwiseProduct(R).rowwise().sum();
+}
+
+bool endsSearch(Status status) { return status == Status::kFree || status == Status::kOpen; }
+
+}  // namespace
+
+Status classify(const View& view, const Vec3& mean_C_m, const Vec3& half_size_C_m, const QueryOptions& options) {
+  const CameraModel& camera = view.camera();
+  const Frustum& frustum = camera.frustum();
+  const double z_m = mean_C_m.z();
+  if (!(z_m >= frustum.near_m && z_m > 0.0)) return Status::kBehind;
+  const auto pixel = camera.pixelAt(mean_C_m.x() / z_m, mean_C_m.y() / z_m);
+  if (!pixel) return Status::kOutsideFov;
+  if (!(z_m <= frustum.far_m)) return Status::kBeyondRange;
+
+  const bool box_inside = contains(frustum, mean_C_m, half_size_C_m);
+  const std::uint16_t raw = view.rawAt(pixel->u, pixel->v);
+  if (camera.classify(raw) == DepthReading::kNone) {
+    if (!isOpen(view, *pixel, options)) return Status::kHole;
+    return box_inside ? Status::kOpen : Status::kPartial;
+  }
+  if (z_m >= static_cast<double>(camera.depth(raw))) return Status::kOccluded;
+  if (!box_inside) return Status::kPartial;
+  if (options.occlusion == OcclusionTest::kFootprint && occludesBox(view, mean_C_m, half_size_C_m)) {
+    return Status::kPartial;
+  }
+  return Status::kFree;
+}
+
+QueryReply query(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const QueryOptions& options) {
+  assert(options.k >= 1 && options.k <= kMaxNeighbours);
+  QueryReply reply;
+  if (snapshot.views.empty()) return reply;
+
+  std::uint32_t answering = 0;
+  for (std::uint32_t i = 0; i < snapshot.views.size(); ++i) {
+    const SnapshotView& candidate = snapshot.views[i];
+    const Vec3 mean_C = candidate.R_C_B * x_B.mean_m + candidate.t_C_B_m;
+    const Vec3 variance_C =
+        candidate.edge_covariance_C_m2.diagonal() + rotatedDiagonal(candidate.R_C_B, x_B.covariance_m2);
+    const Status status = classify(*candidate.view, mean_C, variance_C.cwiseMax(0.0).cwiseSqrt(), options);
+    if (i == 0 || endsSearch(status)) {
+      reply.status = status;
+      answering = i;
+    }
+    if (endsSearch(status)) break;
+  }
+
+  const SnapshotView& view = snapshot.views[answering];
+  reply.view_index = answering;
+  reply.x_C = view.toCamera(x_B);
+  reply.neighbour_count = static_cast<std::uint32_t>(view.view->index().nearest(
+      reply.x_C.mean_m.cast<float>(), std::span(reply.neighbours).first(static_cast<std::size_t>(options.k))));
+  return reply;
+}
+
+void queryBatch(const ChainSnapshot& snapshot, std::span<const UncertainPoint> points_B, const QueryOptions& options,
+                std::span<QueryReply> replies) {
+  assert(points_B.size() == replies.size());
+  for (std::size_t i = 0; i < points_B.size(); ++i) replies[i] = query(snapshot, points_B[i], options);
+}
+
+}  // namespace nanomap
