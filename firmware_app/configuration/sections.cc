@@ -1,0 +1,145 @@
+#include "firmware_app/configuration/sections.h"
+
+namespace nanomap {
+namespace {
+
+/// LCM's own limit for a channel name.
+constexpr TextRule kChannelName{63};
+
+Section vehicleSection() {
+  return {"vehicle",
+          "The vehicle's own size.",
+          {numberKey(
+               "radius_m", "Radius of the sphere around the body's origin that holds all of the vehicle.",
+               {0.0, 10.0, true}, [](auto& c) -> auto& { return c.vehicle.radius_m; }),
+           numberKey(
+               "bubble_margin_m",
+               "Where no camera looks, next to the vehicle, absence of data is no veto: the bubble is this much\n"
+               "larger than the radius.",
+               {0.0, 10.0}, [](auto& c) -> auto& { return c.vehicle.bubble_margin_m; })},
+          {}};
+}
+
+Section historySection() {
+  return {"history",
+          "How much of the past is kept, and what joins it.",
+          {integerKey(
+               "views", "Depth frames kept, the oldest leaves first: 150 are 5 s at 30 Hz.", {1, 2000},
+               [](auto& c) -> auto& { return c.chain.history_views; }),
+           integerKey(
+               "waiting_views", "Depth frames that may wait until a pose at their stamp is known.", {1, 256},
+               [](auto& c) -> auto& { return c.chain.waiting_views; }),
+           integerKey(
+               "pose_capacity", "Poses kept: at 100 Hz, 4096 are 41 s. They must span the history.", {2, 1'000'000},
+               [](auto& c) -> auto& { return c.chain.pose_capacity; }),
+           durationKey(
+               "max_pose_gap_s", "Widest gap between two poses that is interpolated across.", {0.0, 10.0, true},
+               [](auto& c) -> auto& { return c.chain.max_pose_gap; }),
+           durationKey(
+               "max_lead_s", "A depth frame farther ahead of the newest pose is dropped: its clock is another one.",
+               {0.0, 60.0}, [](auto& c) -> auto& { return c.chain.max_lead; })},
+          {}};
+}
+
+Section driftSection() {
+  return {"drift",
+          "How far the estimated position drifts: the standard deviation of relative position after a time.",
+          {numberKey(
+               "horizontal_std_m", "Along each horizontal axis, after after_s.", {0.0, 100.0},
+               [](auto& c) -> auto& { return c.chain.drift.horizontal_std_m; }),
+           numberKey(
+               "vertical_std_m", "Along the vertical, after after_s.", {0.0, 100.0},
+               [](auto& c) -> auto& { return c.chain.drift.vertical_std_m; }),
+           durationKey(
+               "after_s", "The time that the two above refer to.", {0.0, 3600.0, true},
+               [](auto& c) -> auto& { return c.chain.drift.after; }),
+           choiceKey<GrowthLaw>(
+               "law",
+               "How the standard deviation grows with time: square_root if successive errors are\n"
+               "independent, linear if they are alike (a wrong velocity).",
+               {{"square_root", GrowthLaw::kSquareRoot}, {"linear", GrowthLaw::kLinear}},
+               [](auto& c) -> auto& { return c.chain.drift.law; }),
+           booleanKey(
+               "use_increments", "Take increment covariances from the pose messages instead, where they carry them.",
+               [](auto& c) -> auto& { return c.chain.drift.use_increments; })},
+          {}};
+}
+
+Section querySection() {
+  return {"query",
+          "How the history is asked for the nearest obstacles.",
+          {integerKey(
+               "k", "Nearest measured points reported with each answer.", {1, kMaxNeighbours},
+               [](auto& c) -> auto& { return c.query.k; }),
+           choiceKey<OcclusionTest>(
+               "occlusion",
+               "What must lie in front of the measured depth for a point to be free: its mean, or\n"
+               "the whole footprint of its 1-sigma box in the image.",
+               {{"mean", OcclusionTest::kMean}, {"footprint", OcclusionTest::kFootprint}},
+               [](auto& c) -> auto& { return c.query.occlusion; }),
+           integerKey(
+               "open_window_px",
+               "A pixel without depth is sky, not a hole, if nothing near is seen within this many pixels\n"
+               "around it.",
+               {0, 1024}, [](auto& c) -> auto& { return c.query.open_window_px; }),
+           numberKey(
+               "open_range_fraction", "\"Near\", there, is up to this part of the camera's range.", {0.0, 1.0},
+               [](auto& c) -> auto& { return c.query.open_range_fraction; })},
+          {}};
+}
+
+Section lcmSection() {
+  return {
+      "lcm",
+      "Names and habits of the LCM network, live or in a log.",
+      {textKey(
+           "depth_channel", "Depth: nanomap.depth_image_t, bot_core.images_t or bot_core.image_t.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.depth_channel; }),
+       textKey(
+           "pose_channel", "Poses: nanomap.body_pose_t or bot_core.pose_t.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.pose_channel; }),
+       textKey(
+           "correction_channel", "Corrections: nanomap.pose_correction_t.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.correction_channel; }),
+       textKey(
+           "camera_channel", "The camera: nanomap.camera_model_t. Not read if [camera] is in this file.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.camera_channel; }),
+       textKey(
+           "goal_channel", "Goals: nanomap.goal_t.", kChannelName, [](auto& c) -> auto& { return c.lcm.goal_channel; }),
+       textKey(
+           "answers_channel", "Answers, as a replay writes them: nanomap.answers_t.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.answers_channel; }),
+       choiceKey<BodyConvention>(
+           "pose_t_body",
+           "Body axes of bot_core.pose_t, which does not say: flu (forward, left, up) or frd\n"
+           "(forward, right, down).",
+           {{"flu", BodyConvention::kFlu}, {"frd", BodyConvention::kFrd}},
+           [](auto& c) -> auto& { return c.lcm.pose_t_body; }),
+       numberKey(
+           "max_body_speed_m_s",
+           "bot_core.pose_t does not say either when the estimator's world jumps: a step faster than this is\n"
+           "taken for a jump, and nothing is subtracted across it. 0 switches this off.",
+           {0.0, 1000.0}, [](auto& c) -> auto& { return c.lcm.max_body_speed_m_s; })},
+      {}};
+}
+
+}  // namespace
+
+const std::vector<Section>& sections() {
+  static const std::vector<Section> all = {cameraSection(), vehicleSection(), historySection(),
+                                           driftSection(),  querySection(),   lcmSection()};
+  return all;
+}
+
+std::string qualifiedName(const Section& section, const Key& key) { return section.name + "." + key.name; }
+
+std::optional<QualifiedKey> findKey(std::string_view qualified_name) {
+  for (const Section& section : sections()) {
+    for (const Key& key : section.keys) {
+      if (qualifiedName(section, key) == qualified_name) return QualifiedKey{&section, &key};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace nanomap
