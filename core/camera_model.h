@@ -18,6 +18,7 @@ struct Distortion {
   double k3 = 0.0;
 
   [[nodiscard]] bool isZero() const { return k1 == 0.0 && k2 == 0.0 && p1 == 0.0 && p2 == 0.0 && k3 == 0.0; }
+  bool operator==(const Distortion&) const = default;
 };
 
 /// What a depth camera is. Pixel centres lie at integer coordinates: pixel (u, v) covers u-0.5 .. u+0.5.
@@ -34,6 +35,8 @@ struct CameraParameters {
   double min_range_m = 0.0;                                  ///< nearest trusted depth along the optical axis
   double max_range_m = 0.0;                                  ///< farthest trusted depth along the optical axis
   std::vector<std::uint16_t> no_return_values = {0, 65535};  ///< raw values that mean "no depth"
+
+  bool operator==(const CameraParameters&) const = default;
 };
 
 /// What a raw depth value says about its ray.
