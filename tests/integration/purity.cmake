@@ -1,0 +1,38 @@
+# core and planner are pure (DESIGN.md, rule 1): no header of a thread, clock, log, file or socket, and no clock read.
+# cmake -DROOT=<project> -P ...   Checks its own patterns first: a check that cannot fail is none.
+set(header "#[ \t]*include[ \t]*[<\"](thread|mutex|shared_mutex|condition_variable|future|stop_token|semaphore|latch|barrier|ctime|time\\.h|iostream|fstream|ostream|istream|sstream|cstdio|stdio\\.h|filesystem|print|syncstream|spdlog|sys/|unistd\\.h|fcntl\\.h|pthread\\.h|sched\\.h|netinet/|arpa/|netdb\\.h|poll\\.h|lcm/|drivers/|firmware_app/|tools/)")
+set(clock "(steady_clock|system_clock|high_resolution_clock|utc_clock|file_clock|clock_gettime|gettimeofday|[^a-zA-Z_]now\\()")
+
+function(offences_in text out)
+  set(found "")
+  foreach(pattern IN ITEMS "${header}" "${clock}")
+    string(REGEX MATCH "${pattern}" match "${text}")
+    if(match)
+      list(APPEND found "${match}")
+    endif()
+  endforeach()
+  set(${out} "${found}" PARENT_SCOPE)
+endfunction()
+
+foreach(bad IN ITEMS "#include <thread>" "# include <mutex>" "#include <sys/socket.h>" "#include <spdlog/spdlog.h>"
+                     "#include \"drivers/lcm/decode.h\"" "auto t = std::chrono::steady_clock::now()" "x = Clock::now()")
+  offences_in("${bad}" found)
+  if(NOT found)
+    message(FATAL_ERROR "the purity check no longer sees: ${bad}")
+  endif()
+endforeach()
+
+file(GLOB_RECURSE sources "${ROOT}/core/*.h" "${ROOT}/core/*.cc" "${ROOT}/planner/*.h" "${ROOT}/planner/*.cc")
+list(LENGTH sources count)
+if(count LESS 20)
+  message(FATAL_ERROR "only ${count} sources found below ${ROOT}: the check looks in the wrong place")
+endif()
+foreach(source IN LISTS sources)
+  file(READ "${source}" text)
+  string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+  offences_in("${text}" found)
+  if(found)
+    message(SEND_ERROR "${source} is not pure: ${found}")
+  endif()
+endforeach()
+message(STATUS "${count} sources of core and planner are pure")
