@@ -20,6 +20,8 @@ struct Pose {
     const Quat rotation_inverse = rotation.conjugate();
     return {rotation_inverse, -(rotation_inverse * translation_m)};
   }
+
+  bool operator==(const Pose&) const = default;  ///< exact: a quaternion and its negative differ
 };
 
 [[nodiscard]] inline Pose operator*(const Pose& T_A_B, const Pose& T_B_C) {

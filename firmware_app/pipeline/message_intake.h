@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "core/camera_model.h"
+#include "core/correction.h"
+#include "core/depth_image.h"
+#include "core/pose_buffer.h"
+#include "drivers/lcm/convert.h"
+#include "drivers/lcm/decode.h"
+#include "firmware_app/configuration/configuration.h"
+#include "firmware_app/pipeline/epoch_assigner.h"
+
+namespace nanomap {
+
+/// What NanoMap takes in from LCM.
+enum class InputKind : std::uint8_t { kPose, kCorrection, kCamera, kDepth };
+inline constexpr std::size_t kInputKindCount = 4;
+
+[[nodiscard]] std::string_view toString(InputKind kind);
+
+/// The configured channel of that kind.
+[[nodiscard]] const std::string& channelOf(const LcmParameters& lcm, InputKind kind);
+
+struct CameraInput {
+  std::string name;
+  CameraParameters parameters;
+};
+
+struct DepthInput {
+  std::string camera;  ///< empty: the message does not say
+  DepthImage image;
+};
+
+/// Alternatives in the order of InputKind.
+using Input = std::variant<BodyPose, Correction, CameraInput, DepthInput>;
+
+/// Messages of the configured channels as values of core, whatever type carries them: each type is recognised by its
+/// hash. Numbers the messages of types that have no sequence number, and gives epochs to poses that have none.
+/// Threads: one.
+class MessageIntake {
+ public:
+  explicit MessageIntake(const LcmParameters& lcm) : lcm_(lcm), epochs_(lcm.max_body_speed_m_s) {}
+
+  /// Empty if the channel is none of those configured.
+  [[nodiscard]] std::optional<InputKind> kindOf(std::string_view channel) const;
+
+  using Outcome = std::variant<Input, DecodeFault, ConvertFault>;
+  /// @param message  untrusted bytes from the channel of `kind`
+  [[nodiscard]] Outcome read(InputKind kind, Bytes message);
+
+ private:
+  [[nodiscard]] Outcome readPose(Bytes message);
+  [[nodiscard]] Outcome readDepth(Bytes message);
+
+  LcmParameters lcm_;
+  EpochAssigner epochs_;
+  std::uint64_t unnumbered_poses_ = 0;
+  std::uint64_t unnumbered_images_ = 0;
+};
+
+}  // namespace nanomap
