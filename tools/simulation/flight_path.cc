@@ -128,12 +128,14 @@ std::vector<Sample> follow(const Mission& mission, const std::vector<Vec2>& poin
   return samples;
 }
 
-/// Attitude of a vehicle whose thrust, along its z, gives the acceleration, and whose x points along the yaw.
+/// Attitude of a vehicle whose thrust, along its z, gives the acceleration, and whose x points along the yaw as seen
+/// from above.
 Quat attitude(const Vec3& acceleration_W_m_s2, double yaw_rad) {
+  const Vec3 across_W(-std::sin(yaw_rad), std::cos(yaw_rad), 0.0);
   const Vec3 z_W = (acceleration_W_m_s2 + kGravity_m_s2 * Vec3::UnitZ()).normalized();
-  const Vec3 y_W = z_W.cross(Vec3(std::cos(yaw_rad), std::sin(yaw_rad), 0.0)).normalized();
+  const Vec3 x_W = across_W.cross(z_W).normalized();
   Mat3 R_W_B;
-  R_W_B << y_W.cross(z_W), y_W, z_W;
+  R_W_B << x_W, z_W.cross(x_W), z_W;
   return Quat(R_W_B);
 }
 

@@ -71,8 +71,9 @@ struct Appender {
   }
 
   void operator()(const Sphere& sphere) const {
-    const std::uint32_t sides = polygonSides(sphere.radius_m, kSphereTolerance_m);
-    const std::uint32_t rings = sides / 2;
+    // Facets are flat in both directions, and each takes its share of the tolerance.
+    const std::uint32_t sides = polygonSides(sphere.radius_m, kSphereTolerance_m / 2.0);
+    const std::uint32_t rings = (sides + 1) / 2;
     const std::uint32_t south = addVertex(sphere.center_W - sphere.radius_m * Vec3::UnitZ());
     const std::uint32_t north = addVertex(sphere.center_W + sphere.radius_m * Vec3::UnitZ());
     const std::uint32_t first = north + 1;

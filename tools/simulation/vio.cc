@@ -8,10 +8,26 @@
 namespace nanomap::simulation {
 namespace {
 
-void requirePositive(Duration value, const char* name) {
-  if (value > Duration::zero()) return;
-  throw std::invalid_argument(std::string("vio: ") + name + " is " + std::to_string(toSeconds(value)) +
-                              " s, must be positive");
+void require(bool holds, const char* name, double value, const char* rule) {
+  if (holds) return;
+  throw std::invalid_argument(std::string("vio: ") + name + " is " + std::to_string(value) + ", must be " + rule);
+}
+
+void check(const VioParameters& p) {
+  require(p.period > Duration::zero(), "period", toSeconds(p.period), "positive");
+  require(p.window > Duration::zero(), "window", toSeconds(p.window), "positive");
+  require(p.keyframe_period >= p.period, "keyframe_period", toSeconds(p.keyframe_period), "a period or more");
+  require(p.velocity_memory >= Duration::zero(), "velocity_memory", toSeconds(p.velocity_memory), "0 or more");
+  require(p.drift.after >= p.period, "drift.after", toSeconds(p.drift.after), "a period or more");
+  require(p.drift.horizontal_std_m >= 0.0, "drift.horizontal_std_m", p.drift.horizontal_std_m, "0 or more");
+  require(p.drift.vertical_std_m >= 0.0, "drift.vertical_std_m", p.drift.vertical_std_m, "0 or more");
+}
+
+/// Correlation of the velocity errors of neighbouring periods.
+double memoryPerPeriod(const VioParameters& parameters) {
+  if (parameters.drift.law == GrowthLaw::kLinear) return 1.0;
+  if (parameters.velocity_memory == Duration::zero()) return 0.0;
+  return std::exp(-toSeconds(parameters.period) / toSeconds(parameters.velocity_memory));
 }
 
 /// Standard deviation after `steps` periods of a position that integrates, over periods of `period_s`, velocity errors
@@ -29,24 +45,10 @@ double positionStdOfUnitVelocity(std::int64_t steps, double period_s, double mem
 }  // namespace
 
 VioSimulator::VioSimulator(const VioParameters& parameters, std::uint64_t seed)
-    : parameters_(parameters), random_(seed) {
-  requirePositive(parameters.period, "period");
-  requirePositive(parameters.window, "window");
-  requirePositive(parameters.drift.after, "drift.after");
-  requirePositive(parameters.keyframe_period, "keyframe_period");
-  if (parameters.velocity_memory < Duration::zero()) {
-    throw std::invalid_argument("vio: velocity_memory is negative, must be 0 s or more");
-  }
-  const double period_s = toSeconds(parameters.period);
-  if (parameters.drift.law == GrowthLaw::kLinear) {
-    memory_ = 1.0;
-  } else if (parameters.velocity_memory == Duration::zero()) {
-    memory_ = 0.0;
-  } else {
-    memory_ = std::exp(-period_s / toSeconds(parameters.velocity_memory));
-  }
+    : parameters_(parameters), random_(seed), memory_(memoryPerPeriod(parameters)) {
+  check(parameters);
   const double position_std_s =
-      positionStdOfUnitVelocity(parameters.drift.after / parameters.period, period_s, memory_);
+      positionStdOfUnitVelocity(parameters.drift.after / parameters.period, toSeconds(parameters.period), memory_);
   velocity_error_std_m_s_ = parameters.drift.variance_W(parameters.drift.after).cwiseSqrt() / position_std_s;
   for (int axis = 0; axis < 3; ++axis) velocity_error_W_m_s_[axis] = velocity_error_std_m_s_[axis] * normal_(random_);
 }
@@ -61,8 +63,8 @@ void VioSimulator::drift() {
 
 VioEstimate VioSimulator::estimate(Time stamp, const VehicleState& truth) {
   if (estimates_ > 0) drift();
-  const std::int64_t periods_a_keyframe = std::max<std::int64_t>(parameters_.keyframe_period / parameters_.period, 1);
-  if (estimates_ % static_cast<std::uint64_t>(periods_a_keyframe) == 0) {
+  const auto periods_a_keyframe = static_cast<std::uint64_t>(parameters_.keyframe_period / parameters_.period);
+  if (estimates_ % periods_a_keyframe == 0) {
     window_.push_back({stamp, truth.T_W_B});
     while (window_.front().stamp < stamp - parameters_.window) window_.pop_front();
   }
