@@ -1,0 +1,23 @@
+#include "tests/unit/drivers/allocated_bytes.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<std::size_t> allocated_bytes{0};
+}
+
+void* operator new(std::size_t size) {
+  allocated_bytes += size;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace nanomap {
+
+std::size_t allocatedBytes() { return allocated_bytes; }
+
+}  // namespace nanomap
