@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware_app/configuration/camera_mount.h"
@@ -27,12 +28,16 @@ namespace {
 
 enum class Layout { kAutomatic, kNumbered, kTum };
 
+/// Axes of the recording's world. The log's world is FLU: z up.
+enum class WorldAxes { kFlu, kRdf };
+
 /// What the command line says; what it leaves open comes from the preset or the layout.
 struct Options {
   std::filesystem::path folder;
   std::filesystem::path log;
   Layout layout = Layout::kAutomatic;
   std::string preset;
+  std::optional<WorldAxes> world_axes;
   double rate_hz = 30.0;
   std::optional<double> fx_px;
   std::optional<double> fy_px;
@@ -56,6 +61,13 @@ void addOptions(CLI::App& app, Options& options) {
       ->transform(CLI::CheckedTransformer(std::map<std::string, Layout>{
           {"auto", Layout::kAutomatic}, {"numbered", Layout::kNumbered}, {"tum", Layout::kTum}}))
       ->option_text("auto|numbered|tum");
+  app.add_option(
+         "--world", options.world_axes,
+         "Axes of the poses' world: flu (z up; default for tum) or rdf (like a level camera's: z forward, y down; "
+         "default for the numbered layout, whose world is that of a first frame)")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, WorldAxes>{{"flu", WorldAxes::kFlu}, {"rdf", WorldAxes::kRdf}}))
+      ->option_text("flu|rdf");
   std::vector<std::string> presets;
   for (const CameraPreset& preset : cameraPresets()) presets.emplace_back(preset.name);
   app.add_option("--preset", options.preset, "Published calibration; the options below override it")
@@ -123,10 +135,19 @@ ExportCounts writeLog(const Options& options, const Recording& recording, const 
   }
 }
 
+Recording readFolder(const Options& options) {
+  const bool tum = isTum(options);
+  Recording recording = tum ? readTumLayout(options.folder) : readNumberedLayout(options.folder, options.rate_hz);
+  if (options.world_axes.value_or(tum ? WorldAxes::kFlu : WorldAxes::kRdf) == WorldAxes::kRdf) {
+    // A level camera's axes turn into the world's as those of a camera that looks straight ahead into the body's.
+    const Pose T_W_recorded{rotationOfMount({}), Vec3::Zero()};
+    for (RecordedPose& pose : recording.poses) pose.T_W_C = T_W_recorded * pose.T_W_C;
+  }
+  return select(std::move(recording), options.every, options.max_frames);
+}
+
 void run(const Options& options) {
-  const Recording recording =
-      select(isTum(options) ? readTumLayout(options.folder) : readNumberedLayout(options.folder, options.rate_hz),
-             options.every, options.max_frames);
+  const Recording recording = readFolder(options);
   const CameraParameters camera = cameraOf(options, readDepthPng(recording.images.front().file));
   const ExportCounts counts = writeLog(options, recording, camera);
 

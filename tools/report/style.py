@@ -1,0 +1,25 @@
+"""How a status looks, the same in every panel. Colours of Okabe and Ito, told apart by colour-blind readers too."""
+
+from dataclasses import dataclass
+
+from nanomap_log import Status
+
+
+@dataclass(frozen=True)
+class Look:
+    label: str
+    colour: str
+    marker: str
+
+
+LOOKS = {
+    Status.FREE: Look("free", "#009E73", "o"),
+    Status.PARTIAL: Look("partial: box not inside the view", "#E69F00", "^"),
+    Status.OPEN: Look("open: sky", "#56B4E9", "s"),
+    Status.HOLE: Look("hole: no depth", "#CC79A7", "P"),
+    Status.OCCLUDED: Look("occluded", "#D55E00", "X"),
+    Status.BEYOND_RANGE: Look("beyond range", "#0072B2", "D"),
+    Status.OUTSIDE_FOV: Look("outside the field of view", "#9A9A9A", "v"),
+    Status.BEHIND: Look("behind the camera", "#4D4D4D", "<"),
+    Status.EMPTY: Look("no view yet", "#000000", "*"),
+}
