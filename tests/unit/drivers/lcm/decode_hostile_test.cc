@@ -22,7 +22,8 @@ template <class Message>
 void survive(const Encoded& bytes) {
   const std::size_t before = allocatedBytes();
   const Decoded<Message> decoded = decode<Message>(bytes);
-  RC_ASSERT(allocatedBytes() - before <= kGrowth * bytes.size());
+  const std::size_t allocated = allocatedBytes() - before;
+  RC_ASSERT(allocated <= kGrowth * bytes.size());
   if (const auto* message = std::get_if<Message>(&decoded)) {
     RC_ASSERT(static_cast<std::size_t>(message->getEncodedSize()) == bytes.size());
   }
