@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -52,6 +53,7 @@ class Reader {
     for (const auto& [name, entry] : entries) checkName(entry);
     for (const Section& section : sections()) readSection(section, entries);
     checkCamera();
+    checkChannels();
     if (!faults_.empty()) throw ConfigurationError(fmt::format("{}", fmt::join(faults_, "\n")));
     return configuration_;
   }
@@ -112,6 +114,18 @@ class Reader {
       (void)CameraModel(*configuration_.camera);
     } catch (const std::invalid_argument& error) {
       faults_.push_back(fmt::format("[camera]: {}", error.what()));
+    }
+  }
+
+  /// A message is told by its channel first.
+  void checkChannels() {
+    const LcmParameters& lcm = configuration_.lcm;
+    const std::array<std::string_view, 6> channels = {lcm.depth_channel,  lcm.pose_channel, lcm.correction_channel,
+                                                      lcm.camera_channel, lcm.goal_channel, lcm.answers_channel};
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+      if (std::find(channels.begin(), channel, *channel) != channel) {
+        faults_.push_back(fmt::format("[lcm]: two channels are named '{}': each needs a name of its own", *channel));
+      }
     }
   }
 

@@ -17,6 +17,11 @@
 
 namespace {
 
+/// Thirty years: what lies behind is a slip of the pen, and its nanoseconds still fit.
+constexpr double kLongestLog_s = 1e9;
+constexpr double kMinRate = 1e-3;
+constexpr double kMaxRate = 1e6;
+
 struct Arguments {
   std::string log;
   std::string out;
@@ -35,10 +40,9 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--config", arguments.config, "configuration file (TOML); without it, defaults");
   app.add_option("--set", arguments.overrides, "section.key=value: wins over the file; may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--rate", arguments.rate, "times real time; without it, as fast as it goes")
-      ->check(CLI::Range(1e-3, 1e6));
-  app.add_option("--from", arguments.from_s, "start this many seconds into the log")->check(CLI::Range(0.0, 1e9));
-  app.add_option("--to", arguments.to_s, "end this many seconds into the log")->check(CLI::Range(0.0, 1e9));
+  app.add_option("--rate", arguments.rate, "times real time; without it, as fast as it goes");
+  app.add_option("--from", arguments.from_s, "start this many seconds into the log");
+  app.add_option("--to", arguments.to_s, "end this many seconds into the log");
   app.add_flag("--check-config", arguments.check_config, "check the configuration, print what holds, and end");
   app.add_flag("--help-config", arguments.help_config, "print the default configuration with every key explained");
 }
@@ -47,7 +51,15 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw std::runtime_error(message);
 }
 
+/// NaN is in no range.
+void requireInRange(const std::string& option, double value, double min, double max) {
+  require(value >= min && value <= max, fmt::format("{} {}: must be in {} .. {}", option, value, min, max));
+}
+
 nanomap::ReplayOptions optionsFrom(const Arguments& arguments) {
+  requireInRange("--from", arguments.from_s, 0.0, kLongestLog_s);
+  requireInRange("--to", arguments.to_s.value_or(kLongestLog_s), 0.0, kLongestLog_s);
+  requireInRange("--rate", arguments.rate.value_or(1.0), kMinRate, kMaxRate);
   require(!arguments.to_s || *arguments.to_s >= arguments.from_s, "--to must not be before --from");
   nanomap::ReplayOptions options;
   options.from = nanomap::fromSeconds(arguments.from_s);

@@ -10,7 +10,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 Configuration parsed(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parseConfiguration(text, "drone.toml", overrides);
@@ -97,6 +96,10 @@ TEST(Load, CameraRotationMustBeAUnitQuaternion) {
 TEST(Load, CameraTakesAnglesOrQuaternionNotBoth) {
   EXPECT_THAT(refusal(kCamera + "mount_roll_pitch_yaw_deg = [0, 10, 0]\nrotation_wxyz = [1, 0, 0, 0]\n"),
               AllOf(HasSubstr("drone.toml:10"), HasSubstr("keep one")));
+}
+
+TEST(Load, ChannelsMustDiffer) {
+  EXPECT_THAT(refusal("[lcm]\npose_channel = \"DEPTH\"\n"), HasSubstr("[lcm]: two channels are named 'DEPTH'"));
 }
 
 TEST(Load, UnknownKeySuggestsTheOneMeant) {
