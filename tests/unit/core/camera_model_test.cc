@@ -58,8 +58,8 @@ TEST(CameraModel, DeprojectedPixelsProjectToThemselves) {
   const CameraModel camera(smallCamera());
   for (int v = 0; v < camera.height(); ++v) {
     for (int u = 0; u < camera.width(); ++u) {
-      const Vec3f p_C = camera.deproject(static_cast<std::size_t>(v * camera.width() + u), 2000);
-      EXPECT_FLOAT_EQ(p_C.z(), 2.0F);
+      const Vec3 p_C = camera.deproject(static_cast<std::size_t>(v * camera.width() + u), 2000).cast<double>();
+      EXPECT_FLOAT_EQ(static_cast<float>(p_C.z()), 2.0F);
       const auto pixel = camera.pixelAt(p_C.x() / p_C.z(), p_C.y() / p_C.z());
       ASSERT_TRUE(pixel);
       EXPECT_EQ(pixel->u, u);
@@ -111,7 +111,7 @@ TEST_P(DistortedCamera, RaysLandOnTheirPixelThroughTheForwardPolynomial) {
   const CameraModel camera(parameters_);
   for (int v = 0; v < camera.height(); v += 7) {
     for (int u = 0; u < camera.width(); u += 7) {
-      const Vec3f ray_C = camera.deproject(static_cast<std::size_t>(v * camera.width() + u), 1000);
+      const Vec3 ray_C = camera.deproject(static_cast<std::size_t>(v * camera.width() + u), 1000).cast<double>();
       const auto distorted = brownConrady(GetParam(), ray_C.x() / ray_C.z(), ray_C.y() / ray_C.z());
       EXPECT_NEAR(distorted.x() * parameters_.fx_px + parameters_.cx_px, u, 1e-4);
       EXPECT_NEAR(distorted.y() * parameters_.fy_px + parameters_.cy_px, v, 1e-4);
