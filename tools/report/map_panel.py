@@ -90,7 +90,7 @@ def _draw_answers(axes: plt.Axes, moment: Moment, height_m: float) -> np.ndarray
         if status == Status.FREE and answer.num_neighbours:
             lines.append((mean_W[:2], (T_W_C @ [*answer.neighbours[0], 1])[:2]))
     lines = lines[::max(1, len(lines) // OBSTACLE_LINES)]
-    axes.add_collection(LineCollection(lines, colors="#b03060", linewidths=1.0, linestyles=":", zorder=4,
+    axes.add_collection(LineCollection(lines, colors="#b03060", linewidths=0.9, zorder=4,
                                        label="to the nearest obstacle (some)"))
     return np.array(drawn).reshape(-1, 2)
 

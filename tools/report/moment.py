@@ -5,21 +5,24 @@ from pathlib import Path
 
 import nanomap
 import numpy as np
-from nanomap_log import Status, events, matrix
+from nanomap_log import Channels, Event, Status, events, matrix
 from track import Track
 
 US_PER_S = 1_000_000
 CONTAINED = (Status.FREE, Status.OPEN)
 
 
-@dataclass
+@dataclass(frozen=True)
 class Statistics:
     """Of all answers of the log."""
 
     fan: np.ndarray  # answers by status
     flown: np.ndarray
     depths: np.ndarray  # view index of each answer that a view contained
-    answers: int
+
+    @property
+    def answers(self) -> int:
+        return int(self.fan.sum() + self.flown.sum())
 
 
 @dataclass(frozen=True)
@@ -46,17 +49,20 @@ class Moment:
         return next((view.T_W_C for view in self.views if view.image.utime == answer.view_utime), None)
 
 
-def gather(log: Path, answers_log: Path, at_s: float | None) -> Moment:
+def gather(log: Path, answers_log: Path, channels: Channels, at_s: float | None) -> Moment:
     """The moment `at_s` after the log's first event, or, without it, the one where most points were answered by views
-    that are not the newest: what a history is for.
+    that are not the newest: what a history is for. It has some of the path flown next in it, if any moment has.
 
     Raises ValueError naming the log that lacks something.
     """
-    inputs = list(events(log))
+    inputs = events(log, channels.inputs())
     if not inputs:
-        raise ValueError(f"{log}: holds no message that is known here")
-    start = min(event.log_utime for event in inputs)
-    statistics, chosen = _read_answers(answers_log, None if at_s is None else start + round(at_s * US_PER_S))
+        raise ValueError(f"{log}: holds nothing on the channels {', '.join(channels.inputs())}")
+    start = inputs[0].log_utime
+    replies = events(answers_log, channels.answers())
+    if not replies:
+        raise ValueError(f"{answers_log}: holds no answers on the channel {channels.answers_channel}")
+    chosen = _choose(replies, None if at_s is None else start + round(at_s * US_PER_S))
     answers = chosen.message
 
     cameras = _messages(inputs, nanomap.camera_model_t)
@@ -74,28 +80,34 @@ def gather(log: Path, answers_log: Path, at_s: float | None) -> Moment:
              for utime in stamps if track.covers(utime)]
     if not views:
         raise ValueError(f"{log}: holds no depth image with a pose before {answers.utime} us")
-    return Moment(log, (chosen.log_utime - start) / US_PER_S, answers, camera, views, track, statistics)
+    return Moment(log, (chosen.log_utime - start) / US_PER_S, answers, camera, views, track, _count(replies))
 
 
-def _messages(inputs, message_type: type) -> list:
+def _messages(inputs: list[Event], message_type: type) -> list:
     return [event.message for event in inputs if isinstance(event.message, message_type)]
 
 
-def _read_answers(answers_log: Path, at_utime: int | None):
-    statistics = Statistics(np.zeros(len(Status), int), np.zeros(len(Status), int), np.empty(0, int), 0)
-    depths = []
-    best, best_score = None, None
-    for event in events(answers_log, nanomap.answers_t):
-        message = event.message
-        for i, answer in enumerate(message.answers):
-            (statistics.fan if i < message.num_fan else statistics.flown)[answer.status] += 1
-        deep = [a.view_index for a in message.answers if a.status in CONTAINED]
-        depths.extend(deep)
-        score = np.count_nonzero(deep) if at_utime is None else -abs(event.log_utime - at_utime)
-        if best_score is None or score > best_score:
-            best, best_score = event, score
-    if best is None:
-        raise ValueError(f"{answers_log}: holds no answers (nanomap.answers_t)")
-    statistics.depths = np.array(depths, dtype=int)
-    statistics.answers = int(statistics.fan.sum() + statistics.flown.sum())
-    return statistics, best
+def _choose(replies: list[Event], at_utime: int | None) -> Event:
+    if at_utime is not None:
+        return min(replies, key=lambda event: abs(event.log_utime - at_utime))
+    longest = max(_flown_points(event.message) for event in replies)
+    with_path = [event for event in replies if 2 * _flown_points(event.message) >= longest]
+    return max(with_path, key=lambda event: np.count_nonzero(_depths(event.message)))
+
+
+def _flown_points(message: nanomap.answers_t) -> int:
+    return len(message.answers) - message.num_fan
+
+
+def _depths(message: nanomap.answers_t) -> list[int]:
+    """How many views back the points were answered that a view contained."""
+    return [answer.view_index for answer in message.answers if answer.status in CONTAINED]
+
+
+def _count(replies: list[Event]) -> Statistics:
+    fan, flown, depths = np.zeros(len(Status), int), np.zeros(len(Status), int), []
+    for event in replies:
+        for i, answer in enumerate(event.message.answers):
+            (fan if i < event.message.num_fan else flown)[answer.status] += 1
+        depths.extend(_depths(event.message))
+    return Statistics(fan, flown, np.array(depths, dtype=int))

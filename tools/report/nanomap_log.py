@@ -1,16 +1,15 @@
-"""Reads LCM logs with this project's messages: which type an event holds is told by its bytes, not by its channel."""
+"""Reads LCM logs of this project's own messages."""
 
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
-from dataclasses import dataclass
+import tomllib
+from dataclasses import dataclass, fields
 from enum import IntEnum
 from pathlib import Path
 from typing import Any
 
 import blosc
-import bot_core
 import lcm
 import nanomap
 import numpy as np
@@ -33,6 +32,35 @@ class Status(IntEnum):
 
 
 @dataclass(frozen=True)
+class Channels:
+    """Where the module's messages are; the defaults are those of the configuration's section [lcm]."""
+
+    depth_channel: str = "DEPTH"
+    pose_channel: str = "POSE_BODY"
+    correction_channel: str = "POSE_CORRECTION"
+    camera_channel: str = "CAMERA"
+    answers_channel: str = "NANOMAP_ANSWERS"
+
+    def inputs(self) -> dict[str, type]:
+        """Channel -> message type of what a replay takes in."""
+        return {
+            self.depth_channel: nanomap.depth_image_t,
+            self.pose_channel: nanomap.body_pose_t,
+            self.correction_channel: nanomap.pose_correction_t,
+            self.camera_channel: nanomap.camera_model_t,
+        }
+
+    def answers(self) -> dict[str, type]:
+        return {self.answers_channel: nanomap.answers_t}
+
+
+def read_channels(config: Path | None) -> Channels:
+    """The channels of a configuration file; None: the defaults."""
+    section = tomllib.loads(config.read_text()).get("lcm", {}) if config else {}
+    return Channels(**{field.name: section[field.name] for field in fields(Channels) if field.name in section})
+
+
+@dataclass(frozen=True)
 class Event:
     """One decoded message of a log."""
 
@@ -41,29 +69,23 @@ class Event:
     message: Any
 
 
-def _message_types() -> dict[bytes, type]:
-    types = [getattr(package, name) for package in (bot_core, nanomap) for name in dir(package) if name.endswith("_t")]
-    return {message_type._get_packed_fingerprint(): message_type for message_type in types}
-
-
-def events(path: Path, *types: type) -> Iterator[Event]:
-    """Messages of the given types (all known types if none is given), in the log's order.
+def events(path: Path, types: dict[str, type]) -> list[Event]:
+    """The messages on the channels of `types`, by log time. Other types on those channels are passed over.
 
     Raises ValueError naming the log and the moment of a message that cannot be decoded.
     """
-    if not Path(path).is_file():
+    if not path.is_file():
         raise ValueError(f"{path}: no such log")
-    known = _message_types()
-    wanted = set(types) or set(known.values())
+    found = []
     for raw in lcm.EventLog(str(path), "r"):
-        message_type = known.get(raw.data[:FINGERPRINT_BYTES])
-        if message_type not in wanted:
+        message_type = types.get(raw.channel)
+        if message_type is None or raw.data[:FINGERPRINT_BYTES] != message_type._get_packed_fingerprint():
             continue
         try:
-            message = message_type.decode(raw.data)
+            found.append(Event(raw.timestamp, raw.channel, message_type.decode(raw.data)))
         except (ValueError, IndexError, struct.error) as error:
             raise ValueError(f"{path}: damaged {message_type.__name__} at log time {raw.timestamp} us") from error
-        yield Event(raw.timestamp, raw.channel, message)
+    return sorted(found, key=lambda event: event.log_utime)
 
 
 def depth_counts(image: nanomap.depth_image_t) -> np.ndarray:

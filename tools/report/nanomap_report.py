@@ -14,6 +14,7 @@ import matplotlib.pyplot as plt
 import statistics_panel
 from matplotlib.lines import Line2D
 from moment import Moment, gather
+from nanomap_log import read_channels
 from style import LOOKS
 
 WIDTH_IN, HEIGHT_IN, DPI = 18, 10.5, 100
@@ -25,7 +26,8 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("answers", type=Path, help="answers: nanomap-replay LOG --out ANSWERS")
     parser.add_argument("--out", type=Path, required=True, help="PNG to write")
     parser.add_argument("--at", type=float, metavar="S", help="moment, in seconds after the log's first event; by "
-                        "default the one where most points are answered by views that are not the newest")
+                        "default one where many points are answered by views that are not the newest")
+    parser.add_argument("--config", type=Path, help="configuration of the replay, for its channel names")
     return parser.parse_args()
 
 
@@ -48,7 +50,8 @@ def draw(moment: Moment, out: Path) -> None:
 def main() -> int:
     arguments = parse_arguments()
     try:
-        draw(gather(arguments.log, arguments.answers, arguments.at), arguments.out)
+        channels = read_channels(arguments.config)
+        draw(gather(arguments.log, arguments.answers, channels, arguments.at), arguments.out)
     except (ValueError, OSError) as error:
         print(f"nanomap-report: {error}", file=sys.stderr)
         return 1

@@ -26,6 +26,7 @@ class Link:
     view: View
     place: Place
     T_this_newer: np.ndarray | None = None  # between cameras; None at the newest view, and where a jump cut the chain
+    drift_to_newer_W: np.ndarray | None = None  # m^2, from the messages' increments; None: by the law
 
 
 @dataclass(frozen=True)
@@ -107,9 +108,12 @@ class Chain:
                 T_C_newer = link.T_this_newer
             if T_C_newer is None:
                 break
-            variance = self._variance(body.utime - link.view.utime) - self._variance(body.utime - newer_utime)
+            drift_W = link.drift_to_newer_W if i > 0 else self._increments(link.view.utime, body.utime)
+            if drift_W is None:
+                older, newer = (self._variance(body.utime - utime) for utime in (link.view.utime, newer_utime))
+                drift_W = np.diag(older - newer)
             R_C_W = (link.place.T_W_B_original @ link.view.camera.T_B_C)[:3, :3].T
-            steps.append(Step(link.view, T_C_newer, R_C_W @ np.diag(variance) @ R_C_W.T))
+            steps.append(Step(link.view, T_C_newer, R_C_W @ drift_W @ R_C_W.T))
             newer_utime = link.view.utime
         return steps
 
@@ -126,6 +130,7 @@ class Chain:
         del self.links[self.settings.history_views:]
         if len(self.links) > 1:
             self.links[1].T_this_newer = self._edge(self.links[1], self.links[0])
+            self.links[1].drift_to_newer_W = self._increments(self.links[1].view.utime, view.utime)
         return 1
 
     def _place(self, utime: int, T_W_B: np.ndarray, epoch: int) -> Place:
@@ -154,6 +159,9 @@ class Chain:
         if T_older_newer is None:
             return None
         return rigid.inverse(older.view.camera.T_B_C) @ T_older_newer @ newer.view.camera.T_B_C
+
+    def _increments(self, older_utime: int, newer_utime: int) -> np.ndarray | None:
+        return self.poses.drift(older_utime, newer_utime) if self.settings.use_increments else None
 
     def _variance(self, age_us: int) -> np.ndarray:
         """Diagonal in W [m^2] of the drift of relative position after a time."""

@@ -7,7 +7,7 @@ import nanomap
 from chain import Chain
 from compare import Tally, compare
 from mutations import MUTATIONS, mutants
-from nanomap_log import events
+from nanomap_log import events, read_channels
 from settings import read_settings
 from view import Camera, View
 
@@ -44,19 +44,19 @@ class Outcome:
         return faults
 
 
-def check(log: Path, answers: Path, config: Path, sample: Sample) -> Outcome:
+def check(log: Path, answers: Path, config: Path, overrides: list[str], sample: Sample) -> Outcome:
     """Replays `log` step by step, by log time. An answers message follows each input that let a view into the chain.
 
     Raises ValueError if the answers do not follow the inputs.
     """
-    chain = Chain(read_settings(config))
+    chain = Chain(read_settings(config, overrides))
     cameras: dict[str, Camera] = {}
     tally = Tally()
     unseen: list[str] | None = None
-    told = (event.message for event in events(answers, nanomap.answers_t))
+    channels = read_channels(config)
+    told = (event.message for event in events(answers, channels.answers()))
     count = 0
-    types = (nanomap.camera_model_t, nanomap.body_pose_t, nanomap.pose_correction_t, nanomap.depth_image_t)
-    for event in sorted(events(log, *types), key=lambda event: event.log_utime):
+    for event in events(log, channels.inputs()):
         if not _feed(chain, cameras, event.message):
             continue
         message = next(told, None)

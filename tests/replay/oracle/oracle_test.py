@@ -28,6 +28,7 @@ def main() -> int:
     parser.add_argument("--program", type=Path, required=True, help="nanomap-import or nanomap-generate")
     parser.add_argument("--replay", type=Path, required=True, help="nanomap-replay")
     parser.add_argument("--config", type=Path, required=True)
+    parser.add_argument("--set", action="append", default=[], help="section.key=value, over the configuration file")
     parser.add_argument("--work", type=Path, required=True, help="folder for the logs")
     parser.add_argument("--message-stride", type=int, default=1)
     parser.add_argument("--answer-stride", type=int, default=1)
@@ -47,9 +48,9 @@ def main() -> int:
     args.work.mkdir(parents=True, exist_ok=True)
     log, answers = args.work / "input.log", args.work / "answers.log"
     run(args.program, *source, "--out", log)
-    run(args.replay, log, "--config", args.config, "--out", answers)
+    run(args.replay, log, "--config", args.config, *(f"--set={override}" for override in args.set), "--out", answers)
 
-    outcome = check(log, answers, args.config, Sample(args.message_stride, args.answer_stride))
+    outcome = check(log, answers, args.config, args.set, Sample(args.message_stride, args.answer_stride))
     tally = outcome.tally
     print(f"compared {tally.answers} answers of {tally.messages} frames; by status: {tally.statuses}; deepest view "
           f"{tally.deepest_view}; {tally.ambiguous} hang on rounding; {outcome.corrections} corrections")

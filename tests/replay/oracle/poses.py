@@ -14,6 +14,7 @@ class StampedPose:
     epoch: int
     sequence: int
     T_W_B: np.ndarray
+    drift_rate_W: np.ndarray | None  # m^2/us: the increment covariance over the time that it spans
 
 
 class BetweenWorlds(Exception):
@@ -56,7 +57,8 @@ class PoseHistory:
             return False
         if at < len(self._poses) and self._poses[at].epoch < message.epoch:
             return False
-        pose = StampedPose(message.utime, message.epoch, message.sequence, matrix(message.world_from_body))
+        T_W_B = matrix(message.world_from_body)
+        pose = StampedPose(message.utime, message.epoch, message.sequence, T_W_B, _drift_rate(message))
         self._poses.insert(at, pose)
         if full:
             del self._poses[0]
@@ -76,8 +78,31 @@ class PoseHistory:
         weight = (utime - before.utime) / (after.utime - before.utime)
         return rigid.interpolate(before.T_W_B, after.T_W_B, weight), after.epoch
 
+    def drift(self, older_utime: int, newer_utime: int) -> np.ndarray | None:
+        """Covariance in W [m^2] that the increments in the messages add up to; None if one of them is missing.
+
+        The time between two poses drifts at the rate of the later one's increment.
+        """
+        total = np.zeros((3, 3))
+        for before, pose in zip(self._poses, self._poses[1:]):
+            overlap = min(newer_utime, pose.utime) - max(older_utime, before.utime)
+            if overlap > 0:
+                if pose.drift_rate_W is None:
+                    return None
+                total += overlap * pose.drift_rate_W
+        return total
+
     def covers(self, utime: int) -> bool:
         return len(self._poses) > 0 and self.oldest.utime <= utime <= self.newest.utime
+
+
+def _drift_rate(message) -> np.ndarray | None:
+    span_us = message.utime - message.increment_since_utime
+    if not message.has_increment_covariance or span_us <= 0:
+        return None
+    covariance = np.reshape(message.increment_covariance, (3, 3))
+    is_covariance = np.allclose(covariance, covariance.T, rtol=1e-9) and np.linalg.eigvalsh(covariance).min() >= 0
+    return covariance / span_us if is_covariance else None
 
 
 @dataclass(frozen=True)

@@ -18,17 +18,25 @@ class Settings:
     vertical_std_m: float
     after_s: float
     linear_growth: bool
+    use_increments: bool
     neighbours: int
     open_window_px: int
     open_range_fraction: float
 
 
-def read_settings(path: Path) -> Settings:
-    """Every key must be in the file: the oracle has no defaults that could agree with the module's by chance."""
+def read_settings(path: Path, overrides: list[str]) -> Settings:
+    """Every key must be in the file: the oracle has no defaults that could agree with the module's by chance.
+
+    `overrides` are "section.key=value", as nanomap-replay's --set takes them.
+    """
     document = tomllib.loads(path.read_text())
+    for override in overrides:
+        name, value = override.split("=", 1)
+        section, key = name.split(".")
+        document[section][key] = tomllib.loads(f"value = {value}")["value"]
     history, drift, query = document["history"], document["drift"], document["query"]
-    if drift["use_increments"] or query["occlusion"] != "mean" or "camera" in document:
-        raise ValueError(f"{path}: the oracle knows the drift law, occlusion of the mean, and cameras from the log only")
+    if query["occlusion"] != "mean" or "camera" in document:
+        raise ValueError(f"{path}: the oracle knows occlusion of the mean and cameras from the log only")
     return Settings(
         history_views=history["views"],
         waiting_views=history["waiting_views"],
@@ -39,6 +47,7 @@ def read_settings(path: Path) -> Settings:
         vertical_std_m=drift["vertical_std_m"],
         after_s=drift["after_s"],
         linear_growth={"linear": True, "square_root": False}[drift["law"]],
+        use_increments=drift["use_increments"],
         neighbours=query["k"],
         open_window_px=query["open_window_px"],
         open_range_fraction=query["open_range_fraction"],
