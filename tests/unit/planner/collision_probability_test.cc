@@ -119,22 +119,23 @@ struct Estimate {
 
 /// P(|e - p| <= radius for any point p), e ~ N(0, root root^T): importance sampling from the same normal `widening`
 /// times as wide, so that collisions that need several sigmas are seen often.
-Estimate monteCarlo(const Points& points_m, const Mat3& root_m, double radius_m, double widening, int samples) {
-  const auto count = static_cast<Eigen::Index>(points_m.size());
-  Eigen::ArrayX3d measured_m(count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) measured_m.row(i) = points_m[static_cast<std::size_t>(i)].transpose();
+Estimate monteCarlo(Points points_m, const Mat3& root_m, double radius_m, double widening, int samples) {
+  std::sort(points_m.begin(), points_m.end(), [](const Vec3& a, const Vec3& b) { return a.norm() < b.norm(); });
+  const auto touches = [&](const Vec3& error_m) {  // a point further than |e| + radius cannot touch
+    const double reach_sq_m2 = std::pow(error_m.norm() + radius_m, 2);
+    for (const Vec3& point_m : points_m) {
+      if (point_m.squaredNorm() > reach_sq_m2) return false;
+      if ((point_m - error_m).squaredNorm() <= radius_m * radius_m) return true;
+    }
+    return false;
+  };
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
   double sum = 0.0;
   double sum_sq = 0.0;
   for (int sample = 0; sample < samples; ++sample) {
     const Vec3 wide(normal(random), normal(random), normal(random));
-    const Vec3 error_m = root_m * (widening * wide);
-    const double distance_sq_m2 =
-        ((measured_m.col(0) - error_m.x()).square() + (measured_m.col(1) - error_m.y()).square() +
-         (measured_m.col(2) - error_m.z()).square())
-            .minCoeff();
-    if (distance_sq_m2 > radius_m * radius_m) continue;
+    if (!touches(root_m * (widening * wide))) continue;
     const double weight = std::pow(widening, 3) * std::exp(-0.5 * wide.squaredNorm() * (widening * widening - 1.0));
     sum += weight;
     sum_sq += weight * weight;
