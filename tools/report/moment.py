@@ -71,7 +71,8 @@ def gather(log: Path, answers_log: Path, channels: Channels, at_s: float | None)
     camera = cameras[-1]
     track = Track([pose for pose in _messages(inputs, nanomap.body_pose_t) if pose.epoch == answers.epoch])
     if not track.covers(answers.utime):
-        raise ValueError(f"{log}: holds no pose at {answers.utime} us, the time of the answers. Do the two belong together?")
+        raise ValueError(f"{log}: holds no pose at {answers.utime} us, the time of the answers in {answers_log}. "
+                         "Do the two belong together?")
 
     T_B_C = matrix(camera.body_from_camera)
     images = {image.utime: image for image in _messages(inputs, nanomap.depth_image_t)}
