@@ -91,6 +91,14 @@ TEST(LogIndex, LengthThatReachesIntoTheNextEventLosesOnlyItsOwn) {
   }
 }
 
+TEST(LogIndex, CauseIsThatOfTheFirstDamagedByte) {
+  const std::string overrun = EventBytes{.data_length = 1000}.str();
+  const LogIndex garbage_first = indexOf("garbage" + overrun + kFirst);
+  EXPECT_THAT(garbage_first.damage, ElementsAre(LogDamage{Cause::kGarbage, 0, 7 + overrun.size()}));
+  const LogIndex overrun_first = indexOf(overrun + "garbage" + kFirst);
+  EXPECT_THAT(overrun_first.damage, ElementsAre(LogDamage{Cause::kOverrun, 0, overrun.size() + 7}));
+}
+
 TEST(LogIndex, LengthThatSwallowsTheNextEventExactlyLosesOnlyItsOwn) {
   const auto lie = static_cast<std::int32_t>(4 + kSecond.size());
   const std::string damaged = EventBytes{.data = "abcd", .data_length = lie}.str();
@@ -134,6 +142,14 @@ TEST(LogIndex, RepeatedSyncWordIsSkipped) {
 TEST(LogIndex, LongestChannelNameIsRead) {
   const std::string name(kMaxChannelBytes, 'x');
   EXPECT_THAT(indexOf(event(1, name, "data")).channels, ElementsAre(name));
+}
+
+TEST(LogIndex, HeaderAcrossWindowsIsFoundAtAnyOffset) {
+  const std::string longest = event(1, std::string(kMaxChannelBytes, 'x'), "data");
+  for (std::size_t offset = 0; offset < 3 * kMinLogWindowBytes; ++offset) {
+    const LogIndex index = indexOf(std::string(offset, 'g') + longest + kFirst, kMinLogWindowBytes);
+    EXPECT_THAT(offsetsOf(index), ElementsAre(offset, offset + longest.size()));
+  }
 }
 
 TEST(LogIndex, StampsMayGoBackwards) {
