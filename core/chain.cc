@@ -143,6 +143,8 @@ void Chain::snapshotInto(ChainSnapshot& out) const {
   out.T_W_B = body.T_W_B;
   out.epoch = body.epoch;
   out.pose_sequence = body.sequence;
+  out.correction_sequence.reset();
+  if (last_correction_) out.correction_sequence = last_correction_->sequence;
 
   Pose T_C_B;
   Mat3 covariance_C_m2 = Mat3::Zero();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/geometry.h"
@@ -29,6 +30,7 @@ struct ChainSnapshot {
   Pose T_W_B;    ///< as the estimator gave it
   std::uint32_t epoch = 0;
   std::uint64_t pose_sequence = 0;
+  std::optional<std::uint64_t> correction_sequence;  ///< of the last correction accepted
   std::vector<SnapshotView> views;  ///< newest first
 };
 

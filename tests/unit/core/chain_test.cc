@@ -225,6 +225,14 @@ TEST_F(ChainTest, AWindowThatEnded200msAgoCorrectsWhatLiesInsideAndKeepsTheRest)
   EXPECT_EQ(chain_.counters().edges_corrected, 38U);
 }
 
+TEST_F(ChainTest, ASnapshotNamesTheLastCorrectionAccepted) {
+  fly(0, 1000, driftedAt);
+  EXPECT_FALSE(chain_.snapshot().correction_sequence);
+  ASSERT_EQ(chain_.addCorrection(window(0, 500, 10, truthAt, 1, 41)), CorrectionVerdict::kAccepted);
+  ASSERT_EQ(chain_.addCorrection(window(0, 500, 10, truthAt, 1, 41)), CorrectionVerdict::kOutOfOrder);
+  EXPECT_EQ(chain_.snapshot().correction_sequence, 41U);
+}
+
 TEST_F(ChainTest, ANewEdgeAcrossTheWindowsEndStartsFromTheCorrectedPose) {
   fly(0, 1000, driftedAt);
   // Corrected up to now, by a world shifted as a whole: relative motion stays that of the estimator.
