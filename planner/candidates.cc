@@ -1,0 +1,68 @@
+#include "planner/candidates.h"
+
+#include "planner/brake.h"
+#include "planner/level_frame.h"
+
+namespace nanomap {
+
+Candidates::Candidates(const PlannerParameters& parameters, const PrimitiveLibrary& library,
+                       const ChainSnapshot& snapshot, const Goal& goal, Time start, const Motion& at_start_W,
+                       double yaw_W_rad)
+    : parameters_(parameters),
+      library_(library),
+      space_(snapshot, parameters.risk),
+      goal_(goal),
+      objective_(parameters.objective, goal, at_start_W.position_m),
+      start_(start),
+      at_start_W_(at_start_W),
+      R_W_L_(levelAxes(yaw_W_rad)) {}
+
+Vec3 Candidates::acceleration_L(std::uint32_t index) const {
+  const Vec3& velocity_W = at_start_W_.velocity_m_s;
+  if (index < kLibrarySize) return library_.acceleration_L(index, parameters_.limits, velocity_W.norm());
+  if (index == kBrake) return Vec3::Zero();
+  const Vec3 to_goal_L = R_W_L_.transpose() * (goal_.position_W_m - at_start_W_.position_m);
+  return goalDirectedAcceleration(to_goal_L, R_W_L_.transpose() * velocity_W, goal_.top_speed_m_s,
+                                  parameters_.goal_directed, parameters_.limits);
+}
+
+Trajectory Candidates::motion(std::uint32_t index) const {
+  if (index == kBrake) return brakeAfter(Trajectory(start_, at_start_W_), 0.0, parameters_.limits);
+  const double horizon_s = parameters_.horizon.at(at_start_W_.velocity_m_s.norm());
+  return primitive(start_, at_start_W_, R_W_L_ * acceleration_L(index), horizon_s, parameters_.limits);
+}
+
+Trajectory Candidates::brake(std::uint32_t index) const {
+  if (index == kBrake) return motion(index);
+  return brakeAfter(motion(index), parameters_.brake_after_s, parameters_.limits);
+}
+
+Proposal Candidates::propose(std::uint32_t index) const {
+  const Vec3 standstill_W = brake(index).atEnd().position_m;
+  double reward = 0.0;
+  if (index == kBrake) {
+    reward = objective_.brakeReward(standstill_W);
+  } else {
+    const Vec3 velocity_W = motion(index).sample(parameters_.brake_after_s).velocity_m_s;
+    reward = objective_.motionReward(standstill_W, velocity_W.norm());
+  }
+  return {index, reward, objective_.bound(reward, parameters_.risk.max_risk)};
+}
+
+Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* evidence) const {
+  Verdict verdict;
+  verdict.motion =
+      space_.assess(motion(index), parameters_.samples, stop_early, evidence != nullptr ? &evidence->motion : nullptr);
+  verdict.veto = verdict.motion.veto;
+  if (verdict.veto || parameters_.stop_check == StopCheck::kPaper) return verdict;
+
+  verdict.stop = index == kBrake ? verdict.motion
+                                 : space_.assess(brake(index), parameters_.brake_samples, stop_early,
+                                                 evidence != nullptr ? &evidence->brake : nullptr);
+  verdict.veto = verdict.stop->veto;
+  const SampleEvidence& end = verdict.stop->last;
+  if (!verdict.veto && !end.seenFree()) verdict.veto = VetoCause{end.status};
+  return verdict;
+}
+
+}  // namespace nanomap

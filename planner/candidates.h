@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/goal.h"
+#include "core/snapshot.h"
+#include "planner/objective.h"
+#include "planner/planner_parameters.h"
+#include "planner/primitive_library.h"
+#include "planner/trajectory_risk.h"
+
+namespace nanomap {
+
+/// A candidate before any query.
+struct Proposal {
+  std::uint32_t index = 0;
+  double reward = 0.0;  ///< the objective without risk
+  double bound = 0.0;   ///< of the objective, for any risk that the constraint allows
+};
+
+/// What queries said about a candidate.
+struct Verdict {
+  TrajectoryRisk motion;
+  std::optional<TrajectoryRisk> stop;  ///< of its brake, if that was checked
+  std::optional<VetoCause> veto;       ///< empty: feasible
+
+  [[nodiscard]] bool vetoedByBrake() const { return veto && !motion.veto; }
+};
+
+/// Everything that a verdict rests on, sample by sample.
+struct Evidence {
+  std::vector<SampleEvidence> motion;
+  std::vector<SampleEvidence> brake;
+};
+
+/// The candidates of one plan: all that start with one motion and lead to one goal. They are laid out in frame L (B's
+/// origin and yaw, z up) and handed out in W. Borrows the first three arguments of its constructor.
+/// Allocates: no, except inside FLANN and for evidence. Threads: any number of readers.
+class Candidates {
+ public:
+  Candidates(const PlannerParameters& parameters, const PrimitiveLibrary& library, const ChainSnapshot& snapshot,
+             const Goal& goal, Time start, const Motion& at_start_W, double yaw_W_rad);
+
+  [[nodiscard]] const Objective& objective() const { return objective_; }
+
+  /// That the candidate ramps to [m/s^2, L]; the brake's is zero, which it ends with.
+  [[nodiscard]] Vec3 acceleration_L(std::uint32_t index) const;
+
+  [[nodiscard]] Trajectory motion(std::uint32_t index) const;
+
+  /// The brake that is verified with the candidate; the brake candidate's is itself.
+  [[nodiscard]] Trajectory brake(std::uint32_t index) const;
+
+  [[nodiscard]] Proposal propose(std::uint32_t index) const;
+
+  /// @param stop_early  leave the risk of what is vetoed unfinished
+  /// @param evidence    filled if given
+  [[nodiscard]] Verdict judge(std::uint32_t index, bool stop_early, Evidence* evidence = nullptr) const;
+
+ private:
+  const PlannerParameters& parameters_;
+  const PrimitiveLibrary& library_;
+  SpaceAhead space_;
+  Goal goal_;
+  Objective objective_;
+  Time start_;
+  Motion at_start_W_;
+  Mat3 R_W_L_;
+};
+
+}  // namespace nanomap

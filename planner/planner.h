@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "core/decision.h"
+#include "core/goal.h"
+#include "core/snapshot.h"
+#include "core/vehicle_state.h"
+#include "planner/explanation.h"
+#include "planner/planner_parameters.h"
+#include "planner/primitive_library.h"
+
+namespace nanomap {
+
+/// Chooses a motion primitive under a collision-chance constraint, together with a brake that was verified with it
+/// (paper V.A; WAFR 2016). A function of its arguments and parameters: it keeps nothing from one plan to the next.
+/// Threads: immutable, any number of callers.
+class Planner {
+ public:
+  /// @throws std::invalid_argument naming the parameter
+  explicit Planner(const PlannerParameters& parameters);
+
+  /// What to fly from `now` on. Whatever is wrong with state or goal, the decision says so.
+  /// @param now  at or shortly after the state's stamp: the state is carried on to it at constant acceleration
+  /// Allocates: no, except inside FLANN.
+  [[nodiscard]] Decision plan(const ChainSnapshot& snapshot, const VehicleState& state, const std::optional<Goal>& goal,
+                              Time now) const;
+
+  /// The same decision, and what every candidate was judged by. Evaluates everything, and allocates: not for flight.
+  [[nodiscard]] Explanation explain(const ChainSnapshot& snapshot, const VehicleState& state,
+                                    const std::optional<Goal>& goal, Time now) const;
+
+  [[nodiscard]] const PlannerParameters& parameters() const { return parameters_; }
+
+ private:
+  PlannerParameters parameters_;
+  PrimitiveLibrary library_;
+};
+
+}  // namespace nanomap

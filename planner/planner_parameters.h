@@ -1,0 +1,47 @@
+#pragma once
+
+#include "core/time.h"
+#include "planner/heading.h"
+#include "planner/motion_limits.h"
+#include "planner/objective.h"
+#include "planner/primitive_library.h"
+#include "planner/trajectory_risk.h"
+
+namespace nanomap {
+
+/// What a candidate must show beyond a motion within the chance constraint.
+enum class StopCheck : std::uint8_t {
+  kVerified,  ///< its brake is within the constraint too, and ends in space seen as free
+  kPaper,     ///< nothing: the place where it would stand only enters the objective
+};
+
+/// How far ahead a primitive must be safe: as long as it takes to fly `distance_m` at the present speed, within limits.
+struct HorizonParameters {
+  double min_s = 1.0;
+  double max_s = 2.0;  ///< the quotient has no bound at rest
+  double distance_m = 10.0;
+
+  [[nodiscard]] double at(double speed_m_s) const;
+};
+
+struct PlannerParameters {
+  MotionLimits limits;
+  HorizonParameters horizon;
+  GoalDirectedParameters goal_directed;
+  ObjectiveParameters objective;
+  RiskParameters risk;
+  HeadingParameters heading;
+
+  StopCheck stop_check = StopCheck::kVerified;
+  double brake_after_s =
+      0.25;                ///< a plan in force is younger: above the plan period plus the age at which one is stale
+  int samples = 20;        ///< steps of equal time over a primitive's horizon
+  int brake_samples = 10;  ///< over its brake
+  bool early_exit = true;  ///< skip what cannot change the choice; without it the choice is the same
+  Duration max_state_age = std::chrono::milliseconds(200);
+};
+
+/// @throws std::invalid_argument naming the first parameter that is out of its range, its value and the range
+void check(const PlannerParameters& parameters);
+
+}  // namespace nanomap

@@ -1,0 +1,100 @@
+#include "planner/trajectory_risk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nanomap {
+namespace {
+
+/// The running risk of a trajectory, and what weighed most when it went over the constraint.
+class RiskTally {
+ public:
+  explicit RiskTally(double max_risk) : max_risk_(max_risk) {}
+
+  void add(const SampleEvidence& sample) {
+    survival_ *= 1.0 - sample.risk;
+    if (veto_) return;
+    if (sample.risk > heaviest_.risk) heaviest_ = sample;
+    if (risk() <= max_risk_) return;
+    veto_.emplace();
+    if (heaviest_.prior >= heaviest_.collision_probability) veto_->status = heaviest_.status;
+  }
+
+  [[nodiscard]] double risk() const { return 1.0 - survival_; }
+  [[nodiscard]] const std::optional<VetoCause>& veto() const { return veto_; }
+
+ private:
+  double max_risk_;
+  double survival_ = 1.0;
+  SampleEvidence heaviest_;
+  std::optional<VetoCause> veto_;
+};
+
+}  // namespace
+
+SpaceAhead::SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters)
+    : snapshot_(snapshot), parameters_(parameters), R_B_W_(snapshot.T_W_B.rotation.conjugate().toRotationMatrix()) {}
+
+/// Horizontally the same in every direction, so that a rotation needs W's vertical in B only.
+Mat3 SpaceAhead::covariance_B(double horizontal_std_m, double vertical_std_m) const {
+  const double horizontal_m2 = horizontal_std_m * horizontal_std_m;
+  const double vertical_m2 = vertical_std_m * vertical_std_m;
+  const Vec3 up_B = R_B_W_.col(2);
+  return horizontal_m2 * Mat3::Identity() + (vertical_m2 - horizontal_m2) * up_B * up_B.transpose();
+}
+
+SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s) const {
+  const double speed_m_s = motion_W.velocity_m_s.norm();
+  const UncertainPoint x_B{
+      R_B_W_ * (motion_W.position_m - snapshot_.T_W_B.translation_m),
+      covariance_B(parameters_.horizontal.at(speed_m_s, elapsed_s), parameters_.vertical.at(speed_m_s, elapsed_s))};
+  const QueryReply reply = query(snapshot_, x_B, parameters_.query);
+
+  SampleEvidence sample;
+  sample.elapsed_s = elapsed_s;
+  sample.position_W_m = motion_W.position_m;
+  sample.status = reply.status;
+  sample.view_index = reply.view_index;
+  if (!reply.found().empty()) sample.nearest_m = static_cast<double>(reply.found().front().distance_m);
+  const double bubble_m = parameters_.collision.vehicle_radius_m + parameters_.bubble_margin_m;
+  sample.in_bubble = x_B.mean_m.norm() <= bubble_m;
+  sample.prior = sample.in_bubble ? 0.0 : parameters_.prior[static_cast<std::size_t>(reply.status)];
+  sample.collision_probability = collisionProbability(reply.x_C, reply.found(), parameters_.collision);
+  sample.risk = 1.0 - (1.0 - sample.prior) * (1.0 - sample.collision_probability);
+  return sample;
+}
+
+TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, bool stop_early,
+                                  std::vector<SampleEvidence>* evidence) const {
+  const double duration_s = trajectory.duration_s();
+  const double radius_m = parameters_.collision.vehicle_radius_m;
+  RiskTally tally(parameters_.max_risk);
+  const auto assessAt = [&](double elapsed_s) {
+    const SampleEvidence sample = assess(trajectory.sample(elapsed_s), elapsed_s);
+    tally.add(sample);
+    if (evidence != nullptr) evidence->push_back(sample);
+    return sample;
+  };
+  const auto decided = [&] { return stop_early && tally.veto(); };
+  const auto clearance_m = [&](const SampleEvidence& sample) {
+    return sample.nearest_m.value_or(std::numeric_limits<double>::infinity()) - radius_m;
+  };
+
+  SampleEvidence previous = assessAt(0.0);
+  for (int i = 1; i <= samples && !decided(); ++i) {
+    const SampleEvidence next = assessAt(duration_s * i / samples);
+    const double spacing_m = (next.position_W_m - previous.position_W_m).norm();
+    const bool matters = std::min(clearance_m(previous), clearance_m(next)) < spacing_m;
+    if (matters && spacing_m > radius_m) {
+      const int parts = static_cast<int>(std::ceil(spacing_m / radius_m));
+      for (int part = 1; part < parts && !decided(); ++part) {
+        (void)assessAt(std::lerp(previous.elapsed_s, next.elapsed_s, static_cast<double>(part) / parts));
+      }
+    }
+    previous = next;
+  }
+  return {tally.risk(), tally.veto(), previous};
+}
+
+}  // namespace nanomap

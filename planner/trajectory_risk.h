@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/query.h"
+#include "core/trajectory.h"
+#include "planner/collision_probability.h"
+
+namespace nanomap {
+
+/// How uncertain the vehicle is about where it will be: a standard deviation in each horizontal direction or vertically
+/// that grows with speed and time. The defaults fit the authors' at moderate speeds (FIELD.md), who have no term of
+/// time.
+struct DeviationGrowth {
+  double base_m = 0.0;
+  double per_speed_s = 0.0;
+  double per_time_m_s = 0.0;
+
+  [[nodiscard]] double at(double speed_m_s, double elapsed_s) const {
+    return base_m + per_speed_s * speed_m_s + per_time_m_s * elapsed_s;
+  }
+};
+
+/// Collision probability before any neighbour is looked at, by status. Free and open cost nothing, so that a vehicle
+/// takes off in an empty field; each of the others is a veto, so that it does not fly into a hole.
+[[nodiscard]] constexpr std::array<double, kStatusCount> defaultPriors() {
+  std::array<double, kStatusCount> priors{};
+  priors.fill(1.0);
+  priors[static_cast<std::size_t>(Status::kFree)] = 0.0;
+  priors[static_cast<std::size_t>(Status::kOpen)] = 0.0;
+  return priors;
+}
+
+struct RiskParameters {
+  double max_risk = 0.001;  ///< the chance constraint of the paper
+  DeviationGrowth horizontal{.base_m = 0.07, .per_speed_s = 0.024, .per_time_m_s = 0.02};
+  DeviationGrowth vertical{.base_m = 0.04, .per_speed_s = 0.008, .per_time_m_s = 0.01};
+  double bubble_margin_m = 0.2;  ///< beyond the vehicle's radius: where no frustum reaches
+  CollisionParameters collision;
+  QueryOptions query;
+
+  std::array<double, kStatusCount> prior = defaultPriors();
+};
+
+/// What is known about one moment of a trajectory.
+struct SampleEvidence {
+  double elapsed_s = 0.0;
+  Vec3 position_W_m = Vec3::Zero();
+  Status status = Status::kEmpty;
+  std::optional<std::uint32_t> view_index;  ///< in the snapshot, 0 the newest
+  std::optional<double> nearest_m;          ///< to the nearest measured point of that view
+  bool in_bubble = false;                   ///< judged by its neighbours alone
+  double prior = 0.0;                       ///< from the status; 0 in the bubble
+  double collision_probability = 0.0;       ///< from the neighbours
+  double risk = 0.0;                        ///< of both
+
+  /// Free or open, or where the vehicle is anyway: a place to stand still.
+  [[nodiscard]] bool seenFree() const { return in_bubble || status == Status::kFree || status == Status::kOpen; }
+};
+
+/// What weighed most against something: a status, or measured points where there is none.
+struct VetoCause {
+  std::optional<Status> status;
+};
+
+struct TrajectoryRisk {
+  double risk = 0.0;              ///< 1 - prod(1 - p_sample); if evaluation stopped early, of the samples up to there
+  std::optional<VetoCause> veto;  ///< the risk is above the constraint
+  SampleEvidence last;            ///< the trajectory's end, unless evaluation stopped early
+};
+
+/// Judges trajectories by what a snapshot knows. Borrows both arguments.
+/// Allocates: no, except inside FLANN. Threads: any number of readers.
+class SpaceAhead {
+ public:
+  SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters);
+
+  /// A moment of a trajectory, `elapsed_s` after its start.
+  [[nodiscard]] SampleEvidence assess(const Motion& motion_W, double elapsed_s) const;
+
+  /// A whole trajectory, in `samples` steps of equal time. Two samples that are farther apart than the vehicle's radius
+  /// get others between them, at most a radius apart, if the clearance at one is smaller than their distance: else no
+  /// measured point can be nearer to the way between them than half of that distance.
+  /// @param stop_early  stop as soon as the risk is above the constraint
+  /// @param evidence    if given, every sample is appended, in the order of evaluation (allocates)
+  [[nodiscard]] TrajectoryRisk assess(const Trajectory& trajectory, int samples, bool stop_early,
+                                      std::vector<SampleEvidence>* evidence = nullptr) const;
+
+ private:
+  [[nodiscard]] Mat3 covariance_B(double horizontal_std_m, double vertical_std_m) const;
+
+  const ChainSnapshot& snapshot_;
+  const RiskParameters& parameters_;
+  Mat3 R_B_W_;
+};
+
+}  // namespace nanomap
