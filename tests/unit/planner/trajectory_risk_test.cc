@@ -1,0 +1,130 @@
+#include "planner/trajectory_risk.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/planner/flight.h"
+
+namespace nanomap {
+namespace {
+
+using test::Block;
+using test::DrawnWorld;
+using test::Flight;
+
+/// At constant velocity from 2 m above the origin, for two seconds.
+Trajectory straight(const Vec3& velocity_W_m_s) {
+  Trajectory trajectory(Time{}, Motion{{0.0, 0.0, 2.0}, velocity_W_m_s, Vec3::Zero()});
+  trajectory.append(2.0, Vec3::Zero());
+  return trajectory;
+}
+
+struct Seen {
+  explicit Seen(DrawnWorld world) : flight(std::move(world), {0.0, 0.0, 2.0}, 0.0) { flight.look(); }
+  [[nodiscard]] SpaceAhead space() const { return {flight.snapshot(), flight.planner().parameters().risk}; }
+  Flight flight;
+};
+
+TEST(SpaceAhead, AWayThroughTheOpenCarriesNoRisk) {
+  const Seen seen(DrawnWorld{});
+  const TrajectoryRisk risk = seen.space().assess(straight({4.0, 0.0, 0.0}), 20, true);
+  EXPECT_LT(risk.risk, 1e-9);
+  EXPECT_FALSE(risk.veto);
+  EXPECT_DOUBLE_EQ(risk.last.elapsed_s, 2.0);
+  EXPECT_TRUE(risk.last.seenFree());
+}
+
+TEST(SpaceAhead, AWayIntoAWallIsVetoedByTheWallsPoints) {
+  const Seen seen(DrawnWorld{{Block{{5.0, -5.0, 0.0}, {6.0, 5.0, 8.0}}}});
+  const TrajectoryRisk risk = seen.space().assess(straight({2.4, 0.0, 0.0}), 20, true);
+  ASSERT_TRUE(risk.veto);
+  EXPECT_FALSE(risk.veto->status);
+  EXPECT_LT(risk.last.elapsed_s, 2.0) << "evaluation stopped early";
+}
+
+TEST(SpaceAhead, AWayOutOfTheViewIsVetoedByItsStatus) {
+  const Seen seen(DrawnWorld{});
+  const TrajectoryRisk risk = seen.space().assess(straight({0.0, 3.0, 0.0}), 20, true);
+  ASSERT_TRUE(risk.veto);
+  EXPECT_TRUE(risk.veto->status == Status::kBehind || risk.veto->status == Status::kOutsideFov);
+}
+
+TEST(SpaceAhead, InsideTheBubbleOnlyNeighboursJudge) {
+  const Seen seen(DrawnWorld{});
+  const SampleEvidence here = seen.space().assess(Motion{{-0.3, 0.0, 2.0}, Vec3::Zero(), Vec3::Zero()}, 0.0);
+  EXPECT_TRUE(here.in_bubble);
+  EXPECT_EQ(here.status, Status::kBehind);
+  EXPECT_EQ(here.risk, 0.0);
+  EXPECT_TRUE(here.seenFree());
+
+  const Seen before_wall(DrawnWorld{{Block{{0.5, -5.0, 0.0}, {1.0, 5.0, 8.0}}}});
+  const SampleEvidence touching = before_wall.space().assess(Motion{{0.3, 0.0, 2.0}, Vec3::Zero(), Vec3::Zero()}, 0.0);
+  EXPECT_TRUE(touching.in_bubble);
+  EXPECT_EQ(touching.risk, 1.0);
+}
+
+TEST(SpaceAhead, DeviationGrowsWithSpeedAndTime) {
+  const DeviationGrowth growth{.base_m = 0.1, .per_speed_s = 0.02, .per_time_m_s = 0.03};
+  EXPECT_DOUBLE_EQ(growth.at(0.0, 0.0), 0.1);
+  EXPECT_DOUBLE_EQ(growth.at(5.0, 2.0), 0.1 + 0.1 + 0.06);
+  const Seen seen(DrawnWorld{{Block{{5.0, -5.0, 0.0}, {6.0, 5.0, 8.0}}}});
+  const Vec3 p_W(4.3, 0.0, 2.0);
+  const auto riskAt = [&](double speed_m_s, double elapsed_s) {
+    return seen.space().assess(Motion{p_W, {speed_m_s, 0.0, 0.0}, Vec3::Zero()}, elapsed_s).collision_probability;
+  };
+  EXPECT_LT(riskAt(0.0, 0.0), riskAt(5.0, 0.0));
+  EXPECT_LT(riskAt(0.0, 0.0), riskAt(0.0, 2.0));
+}
+
+/// A thin pole between two samples of a fast motion: the samples alone would pass it by.
+TEST(SpaceAhead, SamplesAreInsertedWhereSomethingIsNear) {
+  const Seen seen(DrawnWorld{{Block{{4.0, -0.15, 0.0}, {4.3, 0.15, 8.0}}}});
+  RiskParameters parameters = seen.flight.planner().parameters().risk;
+  parameters.prior.fill(0.0);
+  const SpaceAhead space(seen.flight.snapshot(), parameters);
+  std::vector<SampleEvidence> evidence;
+  const TrajectoryRisk risk = space.assess(straight({3.0, 0.0, 0.0}), 2, false, &evidence);
+  EXPECT_TRUE(risk.veto);
+  EXPECT_GT(evidence.size(), 3U);
+  EXPECT_DOUBLE_EQ(risk.last.elapsed_s, 2.0);
+
+  const Seen empty(DrawnWorld{});
+  evidence.clear();
+  (void)empty.space().assess(straight({1.0, 0.0, 0.0}), 2, false, &evidence);
+  EXPECT_EQ(evidence.size(), 3U) << "nothing near: none inserted";
+}
+
+TEST(SpaceAhead, RiskIsThatOfIndependentSamples) {
+  const Seen seen(DrawnWorld{});
+  RiskParameters parameters = seen.flight.planner().parameters().risk;
+  parameters.prior.fill(0.1);
+  parameters.bubble_margin_m = 0.0;
+  const SpaceAhead space(seen.flight.snapshot(), parameters);
+  const TrajectoryRisk risk = space.assess(straight({2.4, 0.0, 0.0}), 4, false);
+  EXPECT_NEAR(risk.risk, 1.0 - std::pow(0.9, 4), 1e-12) << "four outside of the bubble";
+}
+
+/// Half-space risk of a plane depends on the deviation along its normal alone: of the ground, on the vertical one,
+/// however the body is pitched.
+TEST(SpaceAhead, DeviationStaysLevelWhenTheBodyPitches) {
+  const auto groundRisk = [](double pitch_rad, double horizontal_m, double vertical_m) {
+    Seen seen(DrawnWorld{});
+    ChainSnapshot snapshot = seen.flight.snapshot();
+    const Mat3 R_B_L = Eigen::AngleAxisd(-pitch_rad, Vec3::UnitY()).toRotationMatrix();
+    snapshot.T_W_B.rotation = Quat(R_B_L.transpose());  // the body pitches, the view stays where it is in W
+    for (SnapshotView& view : snapshot.views) view.R_C_B *= R_B_L.transpose();
+    RiskParameters parameters = seen.flight.planner().parameters().risk;
+    parameters.collision.model = CollisionModel::kHalfSpaces;
+    parameters.horizontal = {.base_m = horizontal_m};
+    parameters.vertical = {.base_m = vertical_m};
+    parameters.query.k = 1;
+    const SpaceAhead space(snapshot, parameters);
+    return space.assess(Motion{{6.0, 0.0, 0.6}, Vec3::Zero(), Vec3::Zero()}, 0.0).collision_probability;
+  };
+  const double level = groundRisk(0.0, 0.1, 0.2);
+  EXPECT_GT(level, 0.01);
+  EXPECT_LT(groundRisk(0.0, 0.1, 0.05), level / 2.0) << "the vertical deviation matters";
+  for (const double pitch_rad : {-0.7, 0.4}) EXPECT_NEAR(groundRisk(pitch_rad, 0.1, 0.2), level, 1e-6);
+}
+
+}  // namespace
+}  // namespace nanomap
