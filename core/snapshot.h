@@ -31,7 +31,7 @@ struct ChainSnapshot {
   std::uint32_t epoch = 0;
   std::uint64_t pose_sequence = 0;
   std::optional<std::uint64_t> correction_sequence;  ///< of the last correction accepted
-  std::vector<SnapshotView> views;  ///< newest first
+  std::vector<SnapshotView> views;                   ///< newest first
 };
 
 }  // namespace nanomap

@@ -159,14 +159,16 @@ void walk(FieldWalker& fields, Type<trajectory_t>) {
 }
 
 void walk(FieldWalker& fields, Type<decision_t>) {
-  fields.fixed<std::int64_t, std::int64_t, std::int64_t, std::int64_t, std::int64_t, std::int64_t, std::int32_t,
-               std::int32_t, std::int32_t>();
+  fields.fixed<std::int64_t, std::int64_t, std::int64_t, std::int64_t, std::int32_t, std::int32_t>();
+  fields.fixed<Boolean, std::int64_t, Boolean, std::int64_t, Boolean, std::int64_t>();
   fields.string();
+  fields.fixed<Boolean, std::int32_t>();
   walk(fields, Type<trajectory_t>{});
   fields.fixed<Doubles<3>, Boolean>();
   walk(fields, Type<trajectory_t>{});
-  fields.fixed<double, std::int32_t, std::int32_t>();
+  fields.fixed<double, std::int32_t, std::int32_t, std::int32_t>();
   fields.array(sizeof(std::int32_t));
+  fields.fixed<std::int32_t, std::int32_t>();
 }
 
 void walk(FieldWalker& fields, Type<depth_image_t>) {
