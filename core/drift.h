@@ -16,8 +16,8 @@ enum class GrowthLaw : std::uint8_t {
 /// Drift of the estimator: the standard deviation of relative position after a time, and the law between.
 /// The accumulated covariance at that age equals it, whatever the frame rate (DESIGN.md "Drift"; paper IV.A.1).
 struct DriftModel {
-  double horizontal_std_m = 0.0;  ///< along each of W's x and y
-  double vertical_std_m = 0.0;    ///< along W's z
+  double horizontal_std_m = 0.2;  ///< along each of W's x and y; the paper's Table I has 0.06 .. 0.25 m in 5 s
+  double vertical_std_m = 0.1;    ///< along W's z, which a vehicle measures in other ways as well
   Duration after = std::chrono::seconds(5);
   GrowthLaw law = GrowthLaw::kSquareRoot;
   bool use_increments = false;  ///< take the pose messages' increment covariances where they carry them

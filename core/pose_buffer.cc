@@ -11,10 +11,6 @@ namespace {
 /// Orientations pass through single precision and text in places; more than that is a fault.
 constexpr double kUnitNormTolerance = 1e-3;
 
-bool samePose(const Pose& a, const Pose& b) {
-  return a.translation_m == b.translation_m && a.rotation.coeffs() == b.rotation.coeffs();
-}
-
 bool usable(const DriftIncrement& increment) {
   if (increment.interval <= Duration::zero() || !increment.covariance_W_m2.allFinite()) return false;
   const Mat3& covariance = increment.covariance_W_m2;
@@ -62,7 +58,7 @@ PoseVerdict PoseBuffer::insert(BodyPose pose) {
 
   const std::size_t at = lowerBound(pose.stamp);
   const bool held = at < poses_.size() && poses_[at].stamp == pose.stamp;
-  if (held) return samePose(poses_[at].T_W_B, pose.T_W_B) ? PoseVerdict::kDuplicate : PoseVerdict::kConflict;
+  if (held) return poses_[at].T_W_B == pose.T_W_B ? PoseVerdict::kDuplicate : PoseVerdict::kConflict;
   if (at == 0 && poses_.full()) return PoseVerdict::kTooOld;
   const bool after_newer_epoch = at > 0 && pose.epoch < poses_[at - 1].epoch;
   const bool before_older_epoch = at < poses_.size() && pose.epoch > poses_[at].epoch;
