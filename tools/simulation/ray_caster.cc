@@ -1,6 +1,10 @@
 #include "tools/simulation/ray_caster.h"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -82,9 +86,21 @@ std::vector<float> RayCaster::render(const CameraModel& camera, const Pose& T_W_
   const std::size_t pixels = camera.pixelCount();
   std::vector<float> depth_m(pixels);
 
+#if RTC_VERSION_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  const auto intersect = [&](const int* valid, RTCRayHit4* packet) {
+    rtcIntersect4(valid, embree_->scene.get(), packet, &arguments);
+  };
+#else
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  const auto intersect = [&](const int* valid, RTCRayHit4* packet) {
+    rtcIntersect4(valid, embree_->scene.get(), &context, packet);
+  };
+#endif
   for (std::size_t first = 0; first < pixels; first += kPacket) {
     const std::size_t rays = std::min(kPacket, pixels - first);
     alignas(16) std::array<int, kPacket> valid{};
@@ -104,7 +120,7 @@ std::vector<float> RayCaster::render(const CameraModel& camera, const Pose& T_W_
       packet.ray.mask[i] = ~0U;
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect4(valid.data(), embree_->scene.get(), &context, &packet);
+    intersect(valid.data(), &packet);
     for (std::size_t i = 0; i < rays; ++i) depth_m[first + i] = packet.ray.tfar[i];
   }
   return depth_m;
