@@ -48,8 +48,12 @@ inline Quat attitude(double yaw_W_rad, const Vec3& acceleration_W_m_s2) {
 class Flight {
  public:
   Flight(DrawnWorld world, const Vec3& start_W_m, double yaw_W_rad,
-         const PlannerParameters& parameters = flightParameters())
-      : world_(std::move(world)), planner_(parameters), chain_(chainParameters()), yaw_W_rad_(yaw_W_rad) {
+         const PlannerParameters& parameters = flightParameters(), CameraParameters camera = flightCamera())
+      : world_(std::move(world)),
+        camera_(model(std::move(camera))),
+        planner_(parameters),
+        chain_(chainParameters()),
+        yaw_W_rad_(yaw_W_rad) {
     motion_W_.position_m = start_W_m;
   }
 
@@ -122,7 +126,7 @@ class Flight {
   }
 
   DrawnWorld world_;
-  std::shared_ptr<const CameraModel> camera_ = model(flightCamera());
+  std::shared_ptr<const CameraModel> camera_;
   Planner planner_;
   Chain chain_;
   ChainSnapshot snapshot_;

@@ -239,7 +239,6 @@ TEST(Planner, WithEverythingVetoedItSaysSo) {
   EXPECT_EQ(decision.risk, 1.0);
 }
 
-/// Fast towards a wall that is just beyond the horizon of the primitives: only the stop check sees the trap.
 TEST(Planner, ThePapersRuleChecksNoBrake) {
   PlannerParameters parameters = test::flightParameters();
   parameters.stop_check = StopCheck::kPaper;
@@ -248,6 +247,47 @@ TEST(Planner, ThePapersRuleChecksNoBrake) {
   EXPECT_EQ(decision.reason, Reason::kFlying);
   EXPECT_FALSE(decision.brake_verified);
   EXPECT_EQ(decision.brake_risk, 1.0);
+}
+
+/// Fast towards a wall beyond the horizon of the primitives, with weak brakes: only the stop check sees the trap.
+TEST(Planner, AMotionWhoseBrakeIsNotSafeIsNotFeasible) {
+  PlannerParameters parameters = test::flightParameters();
+  parameters.limits.horizontal_at_full_m_s2 = parameters.limits.horizontal_at_rest_m_s2;
+  parameters.horizon.max_s = parameters.horizon.min_s;
+  Flight flight(DrawnWorld{{Block{{8.5, -20.0, 0.0}, {9.0, 20.0, 12.0}}}}, {0.0, 0.0, 2.0}, 0.0, parameters);
+  flight.look();
+  VehicleState state = flight.state();
+  state.velocity_W_m_s = {6.0, 0.0, 0.0};
+  const Goal goal = goalAt({50.0, 0.0, 2.0}, 6.0);
+  const Decision decision = flight.planner().plan(flight.snapshot(), state, goal, flight.now());
+  EXPECT_GT(decision.vetoes.of_brakes, 0U);
+  const Explanation explanation = flight.planner().explain(flight.snapshot(), state, goal, flight.now());
+  int unsafe_brakes = 0;
+  for (const CandidateExplanation& candidate : explanation.candidates) {
+    if (candidate.verdict.motion.veto) continue;
+    ASSERT_TRUE(candidate.verdict.stop);
+    const bool stops = candidate.verdict.stop->risk <= 0.001 && candidate.verdict.stop->last.seenFree();
+    EXPECT_EQ(candidate.verdict.vetoedByBrake(), !stops);
+    if (candidate.verdict.stop->risk > 0.001 && candidate.verdict.stop->last.seenFree()) ++unsafe_brakes;
+  }
+  EXPECT_GT(unsafe_brakes, 0) << "the scene holds such motions";
+
+  parameters.stop_check = StopCheck::kPaper;
+  EXPECT_EQ(Planner(parameters).plan(flight.snapshot(), state, goal, flight.now()).reason, Reason::kFlying);
+}
+
+/// It is the camera that is turned to the goal, wherever it is mounted.
+TEST(Planner, ACameraThatLooksAsideIsTurnedToTheGoal) {
+  const double mount_yaw_rad = 0.5;
+  CameraParameters camera = test::flightCamera();
+  camera.T_B_C.rotation = Quat(Eigen::AngleAxisd(mount_yaw_rad, Vec3::UnitZ())) * camera.T_B_C.rotation;
+  PlannerParameters parameters = test::flightParameters();
+  parameters.heading.reach_s = 2.0;
+  Flight flight(DrawnWorld{}, {0.0, 0.0, 2.0}, 0.0, parameters, camera);
+  const double bearing_rad = 2.4;
+  const Decision decision = flight.step(goalAt({20.0 * std::cos(bearing_rad), 20.0 * std::sin(bearing_rad), 2.0}));
+  EXPECT_EQ(decision.reason, Reason::kTurning);
+  EXPECT_NEAR(decision.yaw_W_rad, bearing_rad - mount_yaw_rad, 1e-9);
 }
 
 /// A prior of zero lets the motion pass; the end of its brake must have been seen as free all the same.
