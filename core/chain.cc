@@ -146,13 +146,15 @@ void Chain::snapshotInto(ChainSnapshot& out) const {
   out.correction_sequence.reset();
   if (last_correction_) out.correction_sequence = last_correction_->sequence;
 
+  const Vec3 up_B = body.T_W_B.rotation.conjugate() * Vec3::UnitZ();
   Pose T_C_B;
   Mat3 covariance_C_m2 = Mat3::Zero();
   walkEdges([&](const Link& link, const Edge& edge) {
     T_C_B = edge.T_older_newer * T_C_B;
     const Mat3 R_older_newer = edge.T_older_newer.rotation.toRotationMatrix();
     covariance_C_m2 = edge.covariance_older_m2 + R_older_newer * covariance_C_m2 * R_older_newer.transpose();
-    out.views.push_back({link.view, T_C_B.rotation.toRotationMatrix(), T_C_B.translation_m, covariance_C_m2});
+    const Mat3 R_C_B = T_C_B.rotation.toRotationMatrix();
+    out.views.push_back({link.view, R_C_B, T_C_B.translation_m, covariance_C_m2, R_C_B * up_B});
   });
 }
 

@@ -23,26 +23,36 @@ struct PixelRect {
   int u_min, u_max, v_min, v_max;
 };
 
-/// Is there a return in `rect` for which `speaksAgainst(raw, reading)` holds?
+/// Is there a return in `rect` for which `speaks_against(pixel, depth_m)` holds?
 template <class Predicate>
 bool anyReturn(const View& view, const PixelRect& rect, Predicate&& speaks_against) {
   for (int v = rect.v_min; v <= rect.v_max; ++v) {
     for (int u = rect.u_min; u <= rect.u_max; ++u) {
       const std::uint16_t raw = view.rawAt(u, v);
-      const DepthReading reading = view.camera().classify(raw);
-      if (reading != DepthReading::kNone && speaks_against(static_cast<double>(view.camera().depth(raw)))) return true;
+      if (view.camera().classify(raw) == DepthReading::kNone) continue;
+      if (speaks_against(CameraModel::Pixel{u, v}, static_cast<double>(view.camera().depth(raw)))) return true;
     }
   }
   return false;
 }
 
-/// Sky rather than a hole: every return in the window lies far away, or there is none.
-bool isOpen(const View& view, CameraModel::Pixel pixel, const QueryOptions& options) {
+/// Sky rather than a hole: nothing near in the window at the pixel's level or above. What lies lower is the ground
+/// that the sky stands on; a pane has its wall beside and above it.
+bool isOpen(const View& view, CameraModel::Pixel pixel, const Vec3& up_C, const QueryOptions& options) {
   const int reach = options.open_window_px;
   const PixelRect window{std::max(pixel.u - reach, 0), std::min(pixel.u + reach, view.camera().width() - 1),
                          std::max(pixel.v - reach, 0), std::min(pixel.v + reach, view.camera().height() - 1)};
   const double far_m = options.open_range_fraction * view.camera().frustum().far_m;
-  return !anyReturn(view, window, [&](double depth_m) { return depth_m <= far_m; });
+  // Looking straight up or down, the image has no level: then whatever is near speaks against sky.
+  constexpr double kLeastUpInImage = 1e-3;
+  constexpr double kLevel_px = 0.5;
+  const Eigen::Vector2d up_image = up_C.head<2>();
+  const bool has_level = up_image.norm() >= kLeastUpInImage;
+  const Eigen::Vector2d up = has_level ? Eigen::Vector2d(up_image.normalized()) : Eigen::Vector2d::Zero();
+  return !anyReturn(view, window, [&](CameraModel::Pixel at, double depth_m) {
+    const double height_px = (at.u - pixel.u) * up.x() + (at.v - pixel.v) * up.y();
+    return depth_m <= far_m && height_px >= -kLevel_px;
+  });
 }
 
 /// Does a return in the box's pixel footprint lie in front of the box's far face? @pre the box is in the frustum
@@ -68,7 +78,7 @@ bool occludesBox(const View& view, const Vec3& mean_C, const Vec3& half_size_C) 
                    std::min(footprint.v_min, corner.v), std::max(footprint.v_max, corner.v)};
     }
   }
-  return anyReturn(view, footprint, [&](double depth_m) { return depth_m <= far_z_m; });
+  return anyReturn(view, footprint, [&](CameraModel::Pixel, double depth_m) { return depth_m <= far_z_m; });
 }
 
 /// diag(R * Sigma * R^T) without the rest of it: all that the containment test needs.
@@ -80,7 +90,8 @@ bool endsSearch(Status status) { return status == Status::kFree || status == Sta
 
 }  // namespace
 
-Status classify(const View& view, const Vec3& mean_C_m, const Vec3& half_size_C_m, const QueryOptions& options) {
+Status classify(const View& view, const Vec3& mean_C_m, const Vec3& half_size_C_m, const Vec3& up_C,
+                const QueryOptions& options) {
   const CameraModel& camera = view.camera();
   const Frustum& frustum = camera.frustum();
   const double z_m = mean_C_m.z();
@@ -92,7 +103,7 @@ Status classify(const View& view, const Vec3& mean_C_m, const Vec3& half_size_C_
   const bool box_inside = contains(frustum, mean_C_m, half_size_C_m);
   const std::uint16_t raw = view.rawAt(pixel->u, pixel->v);
   if (camera.classify(raw) == DepthReading::kNone) {
-    if (!isOpen(view, *pixel, options)) return Status::kHole;
+    if (!isOpen(view, *pixel, up_C, options)) return Status::kHole;
     return box_inside ? Status::kOpen : Status::kPartial;
   }
   if (z_m >= static_cast<double>(camera.depth(raw))) return Status::kOccluded;
@@ -114,7 +125,8 @@ QueryReply query(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const
     const Vec3 mean_C = candidate.R_C_B * x_B.mean_m + candidate.t_C_B_m;
     const Vec3 variance_C =
         candidate.edge_covariance_C_m2.diagonal() + rotatedDiagonal(candidate.R_C_B, x_B.covariance_m2);
-    const Status status = classify(*candidate.view, mean_C, variance_C.cwiseMax(0.0).cwiseSqrt(), options);
+    const Vec3 half_size_C = variance_C.cwiseMax(0.0).cwiseSqrt();
+    const Status status = classify(*candidate.view, mean_C, half_size_C, candidate.up_C, options);
     if (i == 0 || endsSearch(status)) {
       reply.status = status;
       answering = i;

@@ -21,7 +21,7 @@ enum class OcclusionTest : std::uint8_t {
 struct QueryOptions {
   int k = 1;  ///< neighbours wanted, 1 .. kMaxNeighbours
   OcclusionTest occlusion = OcclusionTest::kMean;
-  int open_window_px = 32;           ///< half side of the window that tells sky from a hole
+  int open_window_px = 32;           ///< reach, to all sides, of the window that tells sky from a hole
   double open_range_fraction = 0.7;  ///< returns beyond this part of the range do not speak against sky
 };
 
@@ -36,9 +36,10 @@ struct QueryReply {
 };
 
 /// What `view` knows about the point x_C in its camera frame: the 1-sigma box, half size sqrt(diag(Sigma)), against
-/// the frustum's planes by exact support, and the occlusion test. Never kEmpty. NaN is never free.
+/// the frustum's planes by exact support, and the occlusion test. `up_C` is the direction against gravity: it tells the
+/// ground below a horizon from what surrounds a hole. Never kEmpty. NaN is never free.
 /// Allocates: no. Threads: any number of readers.
-[[nodiscard]] Status classify(const View& view, const Vec3& mean_C_m, const Vec3& half_size_C_m,
+[[nodiscard]] Status classify(const View& view, const Vec3& mean_C_m, const Vec3& half_size_C_m, const Vec3& up_C,
                               const QueryOptions& options);
 
 /// Nearest obstacles to an uncertain point, seen from the most recent view that contains it (Algorithm 1).

@@ -18,6 +18,7 @@ struct SnapshotView {
   Mat3 R_C_B = Mat3::Identity();
   Vec3 t_C_B_m = Vec3::Zero();
   Mat3 edge_covariance_C_m2 = Mat3::Zero();  ///< accumulated over the edges
+  Vec3 up_C = Vec3::Zero();                  ///< W's z axis
 
   [[nodiscard]] UncertainPoint toCamera(const UncertainPoint& x_B) const {
     return {R_C_B * x_B.mean_m + t_C_B_m, edge_covariance_C_m2 + R_C_B * x_B.covariance_m2 * R_C_B.transpose()};

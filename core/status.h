@@ -10,7 +10,7 @@ namespace nanomap {
 enum class Status : std::uint8_t {
   kFree,         ///< the box is inside the view and the mean is in front of what was seen
   kPartial,      ///< the mean is, the box is not
-  kOpen,         ///< no depth at the pixel, and nothing but far returns (or none) around it: sky
+  kOpen,         ///< no depth at the pixel, and nothing near around it at its level or above: sky
   kHole,         ///< no depth at the pixel otherwise: glass, texture, too near
   kOccluded,     ///< behind what was seen
   kBeyondRange,  ///< inside the sides of the view, farther than the sensor is trusted

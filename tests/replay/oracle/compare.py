@@ -48,7 +48,8 @@ def compare(message, chain: Chain, tally: Tally, stride: int) -> None:
         return
     mean_B = np.array([answer.mean_body for answer in answers])
     covariance_B = np.array([answer.covariance_body for answer in answers]).reshape(-1, 3, 3)
-    found = search(steps, mean_B, covariance_B)
+    up_B = matrix(message.world_from_body)[2, :3]  # the z axis of W, in B
+    found = search(steps, mean_B, covariance_B, up_B)
     points = {view: steps[view].view.points() for view in set(found.view.tolist()) if view >= 0}
     for i, answer in enumerate(answers):
         tally.answers += 1

@@ -20,17 +20,19 @@ class Found:
     ambiguous: np.ndarray  # a status on the way was decided within rounding
 
 
-def search(steps: list[Step], mean_B: np.ndarray, covariance_B: np.ndarray) -> Found:
+def search(steps: list[Step], mean_B: np.ndarray, covariance_B: np.ndarray, up_B: np.ndarray) -> Found:
+    """`up_B` points against gravity, in B."""
     count = len(mean_B)
     found = Found(np.full(count, Status.EMPTY), np.full(count, -1), mean_B.copy(), covariance_B.copy(),
                   np.zeros(count, dtype=bool))
-    mean, covariance = mean_B, covariance_B
+    mean, covariance, up = mean_B, covariance_B, up_B
     pending = np.arange(count)
     for i, step in enumerate(steps):
         R, t = step.T_C_newer[:3, :3], step.T_C_newer[:3, 3]
         mean = mean @ R.T + t
         covariance = step.covariance + R @ covariance @ R.T
-        verdicts = step.view.classify(mean, covariance)
+        up = R @ up
+        verdicts = step.view.classify(mean, covariance, up)
         found.ambiguous[pending] |= verdicts.margin < 1
         contained = np.isin(verdicts.status, CONTAINED)
         settled = contained | (i == 0)  # the newest view's own status stands until another view contains the point

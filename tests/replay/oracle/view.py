@@ -58,8 +58,10 @@ class View:
         return np.column_stack([(column - self.camera.cx) / self.camera.fx * z,
                                 (row - self.camera.cy) / self.camera.fy * z, z])
 
-    def classify(self, mean: np.ndarray, covariance: np.ndarray) -> Verdicts:
-        """Status of each point N(mean[i], covariance[i]) in C; means n x 3 [m], covariances n x 3 x 3 [m^2]."""
+    def classify(self, mean: np.ndarray, covariance: np.ndarray, up: np.ndarray) -> Verdicts:
+        """Status of each point N(mean[i], covariance[i]) in C; means n x 3 [m], covariances n x 3 x 3 [m^2].
+
+        `up` points against gravity, in C."""
         camera = self.camera
         count = len(mean)
         x, y, z = mean.T
@@ -97,7 +99,8 @@ class View:
         is_silent = np.zeros(count, dtype=bool)
         is_silent[inside] = ~self.is_return[row, column]
         is_open = is_silent.copy()
-        is_open[inside] &= ~self._near_return_around(row, column)
+        silent = np.flatnonzero(is_silent[inside])
+        is_open[inside[silent]] = [not self._something_near(row[i], column[i], up) for i in silent]
         status[is_silent & ~is_open] = Status.HOLE
         settle(np.where(is_open, contained, np.inf), Status.PARTIAL)
         status[is_open & (status == UNDECIDED)] = Status.OPEN
@@ -111,18 +114,17 @@ class View:
         status[status == UNDECIDED] = Status.FREE
         return Verdicts(status, margin)
 
-    def _near_return_around(self, row: np.ndarray, column: np.ndarray) -> np.ndarray:
-        """Whether any return in the window around each pixel speaks against sky."""
-        top = np.maximum(row - self._window_px, 0)
-        bottom = np.minimum(row + self._window_px + 1, self.camera.height)
-        left = np.maximum(column - self._window_px, 0)
-        right = np.minimum(column + self._window_px + 1, self.camera.width)
-        sums = self._near_return_sums
-        return sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left] > 0
+    def _something_near(self, row: int, column: int, up: np.ndarray) -> bool:
+        """Whether a return in the window around the pixel, at its level or above, speaks against sky."""
+        rows, columns = np.nonzero(self._is_near[max(row - self._window_px, 0):row + self._window_px + 1,
+                                                 max(column - self._window_px, 0):column + self._window_px + 1])
+        rows += max(row - self._window_px, 0) - row
+        columns += max(column - self._window_px, 0) - column
+        length = np.hypot(up[0], up[1])
+        if length < 1e-3:
+            return len(rows) > 0
+        return bool(np.any((columns * up[0] + rows * up[1]) / length >= -0.5))
 
     @cached_property
-    def _near_return_sums(self) -> np.ndarray:
-        """At [v, u]: how many pixels above row v and left of column u hold a return that speaks against sky."""
-        sums = np.zeros((self.camera.height + 1, self.camera.width + 1), dtype=np.int32)
-        sums[1:, 1:] = (self.is_return & (self.depth_m <= self._open_limit_m)).cumsum(axis=0).cumsum(axis=1)
-        return sums
+    def _is_near(self) -> np.ndarray:
+        return self.is_return & (self.depth_m <= self._open_limit_m)

@@ -1,25 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "core/chain.h"
 #include "core/query.h"
+#include "tests/support/allocations.h"
 #include "tests/support/drawing.h"
-
-namespace {
-
-std::size_t allocations = 0;
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace nanomap {
 namespace {
@@ -43,24 +27,25 @@ TEST(Allocation, AQueryAllocatesOnlyInsideFlann) {
   ASSERT_EQ(snapshot.views.size(), 40U);
 
   std::array<Neighbour, kMaxNeighbours> found;
-  std::size_t before = allocations;
+  std::size_t before = test::allocationCount();
   (void)snapshot.views[0].view->index().nearest(Vec3f(0.0F, 0.0F, 3.0F), found);
-  const std::size_t allocations_in_flann = allocations - before;
+  const std::size_t allocations_in_flann = test::allocationCount() - before;
   EXPECT_LE(allocations_in_flann, 3U);
 
   for (const Vec3& p_B : {Vec3(3.0, 0.0, 0.0), Vec3(0.0, -3.0, 0.0), Vec3(0.0, 0.0, 9.0), Vec3(30.0, 0.0, 0.0)}) {
     for (const OcclusionTest occlusion : {OcclusionTest::kMean, OcclusionTest::kFootprint}) {
-      before = allocations;
+      before = test::allocationCount();
       const QueryReply reply = query(snapshot, {p_B, 0.01 * Mat3::Identity()}, {.k = 16, .occlusion = occlusion});
-      EXPECT_EQ(allocations - before, allocations_in_flann) << p_B.transpose() << ' ' << toString(reply.status);
+      EXPECT_EQ(test::allocationCount() - before, allocations_in_flann)
+          << p_B.transpose() << ' ' << toString(reply.status);
     }
   }
 
   std::array<UncertainPoint, 8> points_B{};
   std::array<QueryReply, 8> replies;
-  before = allocations;
+  before = test::allocationCount();
   queryBatch(snapshot, points_B, {}, replies);
-  EXPECT_EQ(allocations - before, points_B.size() * allocations_in_flann);
+  EXPECT_EQ(test::allocationCount() - before, points_B.size() * allocations_in_flann);
 }
 
 TEST(Allocation, PosesAndSnapshotsIntoUsedStorageAllocateNothing) {
@@ -71,13 +56,13 @@ TEST(Allocation, PosesAndSnapshotsIntoUsedStorageAllocateNothing) {
   (void)chain.addPose(pose);
   (void)chain.addView(test::viewOf(test::flatImage(*camera, 5000), camera));
   chain.snapshotInto(snapshot);
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocationCount();
   for (int i = 1; i < 10'000; ++i) {
     pose.stamp += milliseconds(10);
     (void)chain.addPose(pose);
     chain.snapshotInto(snapshot);
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocationCount(), before);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ const Vec3 kTightBox(0.01, 0.01, 0.01);
 class Drawn : public testing::Test {
  protected:
   [[nodiscard]] Status status(const DepthImage& image, const Vec3& mean_C, const Vec3& half_size = kTightBox) const {
-    return classify(*viewOf(image, camera_), mean_C, half_size, options_);
+    return classify(*viewOf(image, camera_), mean_C, half_size, up_C_, options_);
   }
   /// The point at depth `z_m` on the ray of pixel (u, v).
   [[nodiscard]] Vec3 onRay(int u, int v, double z_m) const {
@@ -31,6 +31,7 @@ class Drawn : public testing::Test {
 
   std::shared_ptr<const CameraModel> camera_ = test::model(test::smallCamera(160, 120));
   DepthImage wall_at_5m_ = flatImage(*camera_, 5000);
+  Vec3 up_C_{0.0, -1.0, 0.0};  ///< a level camera
   QueryOptions options_;
 };
 
@@ -78,6 +79,31 @@ TEST_F(Drawn, OpenSkyIsOpen) {
   EXPECT_EQ(status(skyline, onRay(80, 60, 5.0)), Status::kOpen);
 }
 
+/// Over flat ground the rows just above the horizon are sky, however low the vehicle flies.
+TEST_F(Drawn, TheHorizonIsOpen) {
+  DepthImage field = flatImage(*camera_, 0);
+  for (int row = 62; row < 120; ++row) {
+    const double depth_m = 1.0 * camera_->parameters().fy_px / (row - camera_->parameters().cy_px);  // at 1 m height
+    if (depth_m < 10.0) paint(field, 0, 159, row, row, static_cast<std::uint16_t>(depth_m * 1000.0));
+  }
+  EXPECT_EQ(status(field, onRay(80, 60, 5.0)), Status::kOpen);
+  EXPECT_EQ(status(field, onRay(80, 100, 1.0)), Status::kFree) << "over the ground";
+  EXPECT_EQ(status(field, onRay(80, 100, 5.0)), Status::kOccluded) << "in the ground";
+  up_C_ = {0.0, 1.0, 0.0};  // the same image upside down: a ceiling
+  EXPECT_EQ(status(field, onRay(80, 60, 5.0)), Status::kHole);
+}
+
+TEST_F(Drawn, TheLevelFollowsTheRollOfTheCamera) {
+  DepthImage image = flatImage(*camera_, 0);
+  paint(image, 90, 95, 60, 60, 2000);  // 10 pixels to the right
+  up_C_ = Vec3(-0.6, -0.8, 0.0);       // rolled: right is down
+  EXPECT_EQ(status(image, onRay(80, 60, 5.0)), Status::kOpen);
+  up_C_ = Vec3(0.6, -0.8, 0.0);
+  EXPECT_EQ(status(image, onRay(80, 60, 5.0)), Status::kHole);
+  up_C_ = Vec3(0.0, 0.0, 1.0);  // straight up: no level, everything near counts
+  EXPECT_EQ(status(image, onRay(80, 60, 5.0)), Status::kHole);
+}
+
 TEST_F(Drawn, ABoxThatReachesOutOfTheSkyIsPartial) {
   EXPECT_EQ(status(flatImage(*camera_, 0), {0.0, 0.0, 3.0}, {3.1, 0.01, 0.01}), Status::kPartial);
 }
@@ -101,8 +127,9 @@ TEST_F(Drawn, AThinBranchInTheSkyMakesItsSurroundingsAHole) {
   paint(image, 0, 159, 60, 60, 2000);
   EXPECT_EQ(status(image, onRay(80, 60, 1.0)), Status::kFree) << "in front of the branch";
   EXPECT_EQ(status(image, onRay(80, 60, 3.0)), Status::kOccluded) << "behind it";
-  EXPECT_EQ(status(image, onRay(80, 40, 3.0)), Status::kHole) << "20 pixels beside it";
-  EXPECT_EQ(status(image, onRay(80, 27, 3.0)), Status::kOpen) << "33 pixels beside it";
+  EXPECT_EQ(status(image, onRay(80, 80, 3.0)), Status::kHole) << "20 pixels under it";
+  EXPECT_EQ(status(image, onRay(80, 93, 3.0)), Status::kOpen) << "33 pixels under it";
+  EXPECT_EQ(status(image, onRay(80, 58, 3.0)), Status::kOpen) << "above it";
 }
 
 TEST_F(Drawn, SomethingTooNearIsNeverSky) {
@@ -173,7 +200,7 @@ TEST_F(Drawn, ContainmentAgreesWithSampledPoints) {
       const Vec3 sign((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0);
       corners_inside = corners_inside && inFrustum(mean_C + half_size.cwiseProduct(sign));
     }
-    const Status got = classify(*view, mean_C, half_size, options_);
+    const Status got = classify(*view, mean_C, half_size, up_C_, options_);
     if (!inFrustum(mean_C)) {
       EXPECT_TRUE(got == Status::kOutsideFov || got == Status::kBehind) << toString(got);
       continue;

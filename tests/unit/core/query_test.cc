@@ -86,7 +86,8 @@ TEST_F(TurningFlight, AnswersFromTheNewestViewThatContainsThePoint) {
   for (std::uint32_t newer = 0; newer < *before.view_index; ++newer) {
     const UncertainPoint x_C = snapshot_.views[newer].toCamera({right_B, Mat3::Zero()});
     const Vec3 half_size = x_C.covariance_m2.diagonal().cwiseSqrt();
-    const Status status = classify(*snapshot_.views[newer].view, x_C.mean_m, half_size, {});
+    const Status status =
+        classify(*snapshot_.views[newer].view, x_C.mean_m, half_size, snapshot_.views[newer].up_C, {});
     EXPECT_TRUE(status != Status::kFree && status != Status::kOpen) << newer;
   }
 }

@@ -1,24 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "planner/trajectory_risk.h"
+#include "tests/support/allocations.h"
 #include "tests/unit/planner/flight.h"
-
-namespace {
-
-std::size_t allocations = 0;
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace nanomap {
 namespace {
@@ -52,9 +36,9 @@ TEST(PlannerAllocation, APlanAllocatesNothingOfItsOwn) {
       parameters.early_exit = early_exit;
       parameters.risk.collision.model = model;
       const Planner planner(parameters);
-      const std::size_t before = allocations;
+      const std::size_t before = test::allocationCount();
       const Decision decision = planner.plan(snapshot, state, goal, Time{});
-      EXPECT_EQ(allocations, before);
+      EXPECT_EQ(test::allocationCount(), before);
       EXPECT_GE(decision.evaluated, early_exit ? 1U : kCandidateCount);
     }
   }

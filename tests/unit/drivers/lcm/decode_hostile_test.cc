@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "drivers/lcm/decode.h"
-#include "tests/unit/drivers/allocated_bytes.h"
+#include "tests/support/allocations.h"
 #include "tests/unit/drivers/example_log.h"
 #include "tests/unit/drivers/message_types_list.h"
 
@@ -20,9 +20,9 @@ constexpr std::size_t kGrowth = 8;
 /// accepts must be a message: encoded again, it takes as many bytes.
 template <class Message>
 void survive(const Encoded& bytes) {
-  const std::size_t before = allocatedBytes();
+  const std::size_t before = test::allocatedBytes();
   const Decoded<Message> decoded = decode<Message>(bytes);
-  const std::size_t allocated = allocatedBytes() - before;
+  const std::size_t allocated = test::allocatedBytes() - before;
   RC_ASSERT(allocated <= kGrowth * bytes.size());
   if (const auto* message = std::get_if<Message>(&decoded)) {
     RC_ASSERT(static_cast<std::size_t>(message->getEncodedSize()) == bytes.size());
