@@ -11,15 +11,21 @@
 #include "bot_core/pose_t.hpp"
 #include "core/camera_model.h"
 #include "core/correction.h"
+#include "core/decision.h"
 #include "core/depth_image.h"
 #include "core/geometry.h"
+#include "core/goal.h"
 #include "core/pose_buffer.h"
 #include "core/time.h"
+#include "core/trajectory.h"
 #include "drivers/lcm/body_convention.h"
 #include "nanomap/body_pose_t.hpp"
 #include "nanomap/camera_model_t.hpp"
+#include "nanomap/decision_t.hpp"
 #include "nanomap/depth_image_t.hpp"
+#include "nanomap/goal_t.hpp"
 #include "nanomap/pose_correction_t.hpp"
+#include "nanomap/trajectory_t.hpp"
 #include "nanomap/transform_t.hpp"
 
 /// Between LCM messages and the values of core: the one place where stamps, units and body conventions change.
@@ -76,6 +82,10 @@ struct BodyMotion {
 [[nodiscard]] Converted<BodyPose> toBodyPose(const bot_core::pose_t& message, BodyConvention convention,
                                              std::uint64_t sequence);
 
+/// Empty if the estimator gives no velocity (NaN in all three). One that gives no acceleration (likewise) is taken to
+/// move without: a plan then starts from no more than the velocity. Anything else passes through.
+[[nodiscard]] std::optional<BodyMotion> toBodyMotion(const body_pose_t& message);
+
 [[nodiscard]] Converted<Correction> toCorrection(const pose_correction_t& message);
 
 /// The parameters as sent; CameraModel's constructor judges them.
@@ -91,6 +101,8 @@ struct BodyMotion {
 /// A lone LE_GRAY16 or BE_GRAY16 image, taken as depth at 1 mm a count.
 [[nodiscard]] Converted<DepthImage> toDepthImage(const bot_core::image_t& message, std::uint64_t sequence);
 
+[[nodiscard]] Converted<Goal> toGoal(const goal_t& message);
+
 [[nodiscard]] transform_t toMessage(const Pose& T_A_B);
 
 /// @param motion  NaN in the message if it is not known
@@ -103,6 +115,11 @@ struct BodyMotion {
 [[nodiscard]] camera_model_t toMessage(const CameraParameters& parameters, const std::string& name, Time stamp);
 
 [[nodiscard]] depth_image_t toMessage(const DepthImage& image, const std::string& camera, DepthCompression compression);
+
+[[nodiscard]] trajectory_t toMessage(const Trajectory& trajectory);
+
+/// @param sequence  the planner's own count of its decisions
+[[nodiscard]] decision_t toMessage(const Decision& decision, std::uint64_t sequence);
 
 /// As pod-style robots publish poses. Epoch, sequence number and increment have no place in it, and its motion is NaN:
 /// publishers disagree on the frame of those fields.

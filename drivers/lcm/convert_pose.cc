@@ -30,6 +30,8 @@ void store(const Quat& from, double (&wxyz)[4]) {
   wxyz[3] = from.z();
 }
 
+bool isUnknown(const Vec3& value) { return value.array().isNaN().all(); }
+
 std::optional<DriftIncrement> toIncrement(const body_pose_t& message, Time stamp) {
   const Converted<Time> since = timeFromUtime(message.increment_since_utime);
   if (!message.has_increment_covariance || !std::holds_alternative<Time>(since)) return std::nullopt;
@@ -65,6 +67,13 @@ Converted<BodyPose> toBodyPose(const bot_core::pose_t& message, BodyConvention c
   if (convention == BodyConvention::kFrd) pose.T_W_B.rotation = pose.T_W_B.rotation * halfTurnAboutX();
   pose.sequence = sequence;
   return pose;
+}
+
+std::optional<BodyMotion> toBodyMotion(const body_pose_t& message) {
+  BodyMotion motion{toVec3(message.velocity), toVec3(message.angular_rate), toVec3(message.acceleration)};
+  if (isUnknown(motion.velocity_W_m_s)) return std::nullopt;
+  if (isUnknown(motion.acceleration_W_m_s2)) motion.acceleration_W_m_s2.setZero();
+  return motion;
 }
 
 Converted<Correction> toCorrection(const pose_correction_t& message) {

@@ -5,16 +5,10 @@
 
 #include "core/camera_model.h"
 #include "core/chain.h"
-#include "core/query.h"
 #include "drivers/lcm/body_convention.h"
+#include "planner/planner_parameters.h"
 
 namespace nanomap {
-
-/// The vehicle's own size.
-struct VehicleParameters {
-  double radius_m = 0.4;         ///< of the sphere around the body's origin that holds all of it
-  double bubble_margin_m = 0.4;  ///< beyond the radius: nearer than that no view's absence of data counts
-};
 
 /// Names and habits of the LCM network, live or in a log.
 struct LcmParameters {
@@ -24,6 +18,7 @@ struct LcmParameters {
   std::string camera_channel = "CAMERA";
   std::string goal_channel = "GOAL";
   std::string answers_channel = "NANOMAP_ANSWERS";
+  std::string decisions_channel = "NANOMAP_DECISIONS";
   BodyConvention pose_t_body = BodyConvention::kFlu;  ///< of bot_core.pose_t, which does not say
   double max_body_speed_m_s = 30.0;  ///< a faster step between poses without epochs is a jump of the world; 0: never
 };
@@ -32,9 +27,8 @@ struct LcmParameters {
 /// (firmware_app/configuration/sections.h), and their initialisers are the file's defaults.
 struct Configuration {
   std::optional<CameraParameters> camera;  ///< empty: as the camera's own message says
-  VehicleParameters vehicle;
-  ChainParameters chain;  ///< [history] and [drift]
-  QueryOptions query;
+  ChainParameters chain;                   ///< [history] and [drift]
+  PlannerParameters planner;               ///< [vehicle], [query] and all sections from [planner] on, up to [lcm]
   LcmParameters lcm;
 };
 

@@ -48,7 +48,7 @@ struct Section {
 };
 
 // Builders. `field` is a generic lambda that returns a reference to the member, for const and mutable configurations:
-// [](auto& c) -> auto& { return c.query.k; }
+// [](auto& c) -> auto& { return c.chain.history_views; }
 
 template <class Field>
 [[nodiscard]] Key booleanKey(std::string name, std::string help, Field field) {

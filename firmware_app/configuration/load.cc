@@ -53,6 +53,7 @@ class Reader {
     for (const auto& [name, entry] : entries) checkName(entry);
     for (const Section& section : sections()) readSection(section, entries);
     checkCamera();
+    checkPlanner();
     checkChannels();
     if (!faults_.empty()) throw ConfigurationError(fmt::format("{}", fmt::join(faults_, "\n")));
     return configuration_;
@@ -117,11 +118,22 @@ class Reader {
     }
   }
 
+  /// What only several of its values together show, such as the order of two limits.
+  void checkPlanner() {
+    if (!faults_.empty()) return;
+    try {
+      check(configuration_.planner);
+    } catch (const std::invalid_argument& error) {
+      faults_.emplace_back(error.what());
+    }
+  }
+
   /// A message is told by its channel first.
   void checkChannels() {
     const LcmParameters& lcm = configuration_.lcm;
-    const std::array<std::string_view, 6> channels = {lcm.depth_channel,  lcm.pose_channel, lcm.correction_channel,
-                                                      lcm.camera_channel, lcm.goal_channel, lcm.answers_channel};
+    const std::array<std::string_view, 7> channels = {lcm.depth_channel,    lcm.pose_channel, lcm.correction_channel,
+                                                      lcm.camera_channel,   lcm.goal_channel, lcm.answers_channel,
+                                                      lcm.decisions_channel};
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
       if (std::find(channels.begin(), channel, *channel) != channel) {
         faults_.push_back(fmt::format("[lcm]: two channels are named '{}': each needs a name of its own", *channel));

@@ -1,5 +1,7 @@
 #include "firmware_app/configuration/sections.h"
 
+#include <utility>
+
 namespace nanomap {
 namespace {
 
@@ -11,12 +13,12 @@ Section vehicleSection() {
           "The vehicle's own size.",
           {numberKey(
                "radius_m", "Radius of the sphere around the body's origin that holds all of the vehicle.",
-               {0.0, 10.0, true}, [](auto& c) -> auto& { return c.vehicle.radius_m; }),
+               {0.0, 10.0, true}, [](auto& c) -> auto& { return c.planner.risk.collision.vehicle_radius_m; }),
            numberKey(
                "bubble_margin_m",
                "Where no camera looks, next to the vehicle, absence of data is no veto: the bubble is this much\n"
                "larger than the radius.",
-               {0.0, 10.0}, [](auto& c) -> auto& { return c.vehicle.bubble_margin_m; })},
+               {0.0, 10.0}, [](auto& c) -> auto& { return c.planner.risk.bubble_margin_m; })},
           {}};
 }
 
@@ -70,21 +72,21 @@ Section querySection() {
           "How the history is asked for the nearest obstacles.",
           {integerKey(
                "k", "Nearest measured points reported with each answer.", {1, kMaxNeighbours},
-               [](auto& c) -> auto& { return c.query.k; }),
+               [](auto& c) -> auto& { return c.planner.risk.query.k; }),
            choiceKey<OcclusionTest>(
                "occlusion",
                "What must lie in front of the measured depth for a point to be free: its mean, or\n"
                "the whole footprint of its 1-sigma box in the image.",
                {{"mean", OcclusionTest::kMean}, {"footprint", OcclusionTest::kFootprint}},
-               [](auto& c) -> auto& { return c.query.occlusion; }),
+               [](auto& c) -> auto& { return c.planner.risk.query.occlusion; }),
            integerKey(
                "open_window_px",
                "A pixel without depth is sky, not a hole, if nothing near is seen within this many pixels\n"
                "around it.",
-               {0, 1024}, [](auto& c) -> auto& { return c.query.open_window_px; }),
+               {0, 1024}, [](auto& c) -> auto& { return c.planner.risk.query.open_window_px; }),
            numberKey(
                "open_range_fraction", "\"Near\", there, is up to this part of the camera's range.", {0.0, 1.0},
-               [](auto& c) -> auto& { return c.query.open_range_fraction; })},
+               [](auto& c) -> auto& { return c.planner.risk.query.open_range_fraction; })},
           {}};
 }
 
@@ -109,6 +111,9 @@ Section lcmSection() {
        textKey(
            "answers_channel", "Answers, as a replay writes them: nanomap.answers_t.", kChannelName,
            [](auto& c) -> auto& { return c.lcm.answers_channel; }),
+       textKey(
+           "decisions_channel", "What the planner decided: nanomap.decision_t.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.decisions_channel; }),
        choiceKey<BodyConvention>(
            "pose_t_body",
            "Body axes of bot_core.pose_t, which does not say: flu (forward, left, up) or frd\n"
@@ -126,8 +131,13 @@ Section lcmSection() {
 }  // namespace
 
 const std::vector<Section>& sections() {
-  static const std::vector<Section> all = {cameraSection(), vehicleSection(), historySection(),
-                                           driftSection(),  querySection(),   lcmSection()};
+  static const std::vector<Section> all = [] {
+    std::vector<Section> ordered = {cameraSection(), vehicleSection(), historySection(), driftSection(),
+                                    querySection()};
+    for (Section& section : plannerSections()) ordered.push_back(std::move(section));
+    ordered.push_back(lcmSection());
+    return ordered;
+  }();
   return all;
 }
 

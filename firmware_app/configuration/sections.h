@@ -26,4 +26,7 @@ struct QualifiedKey {
 /// Makes [camera], which may be missing: the log or the network says what the camera is, then.
 [[nodiscard]] Section cameraSection();
 
+/// Make [planner] and what belongs to it, named as planner/planner_parameters.h names the parts.
+[[nodiscard]] std::vector<Section> plannerSections();
+
 }  // namespace nanomap

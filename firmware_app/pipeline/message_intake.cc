@@ -33,6 +33,8 @@ std::string_view toString(InputKind kind) {
       return "camera models";
     case InputKind::kDepth:
       return "depth frames";
+    case InputKind::kGoal:
+      return "goals";
   }
   return "?";
 }
@@ -45,6 +47,8 @@ const std::string& channelOf(const LcmParameters& lcm, InputKind kind) {
       return lcm.correction_channel;
     case InputKind::kCamera:
       return lcm.camera_channel;
+    case InputKind::kGoal:
+      return lcm.goal_channel;
     case InputKind::kDepth:
       break;
   }
@@ -69,6 +73,8 @@ Outcome MessageIntake::read(InputKind kind, Bytes message) {
       return take<camera_model_t>(message, toCameraParameters, [](const camera_model_t& m, CameraParameters camera) {
         return CameraInput{m.name, std::move(camera)};
       });
+    case InputKind::kGoal:
+      return take<goal_t>(message, toGoal, kAsItIs);
     case InputKind::kDepth:
       break;
   }
@@ -78,14 +84,17 @@ Outcome MessageIntake::read(InputKind kind, Bytes message) {
 Outcome MessageIntake::readPose(Bytes message) {
   if (messageHash(message) != bot_core::pose_t::getHash()) {
     return take<body_pose_t>(
-        message, [](const body_pose_t& m) { return toBodyPose(m); }, kAsItIs);
+        message, [](const body_pose_t& m) { return toBodyPose(m); },
+        [](const body_pose_t& m, BodyPose pose) {
+          return PoseInput{std::move(pose), toBodyMotion(m)};
+        });
   }
   const auto convert = [this](const bot_core::pose_t& m) {
     return toBodyPose(m, lcm_.pose_t_body, unnumbered_poses_++);
   };
   return take<bot_core::pose_t>(message, convert, [this](const auto&, BodyPose pose) {
     pose.epoch = epochs_.assign(pose.stamp, pose.T_W_B);
-    return pose;
+    return PoseInput{std::move(pose), std::nullopt};
   });
 }
 

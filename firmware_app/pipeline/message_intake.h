@@ -10,6 +10,7 @@
 #include "core/camera_model.h"
 #include "core/correction.h"
 #include "core/depth_image.h"
+#include "core/goal.h"
 #include "core/pose_buffer.h"
 #include "drivers/lcm/convert.h"
 #include "drivers/lcm/decode.h"
@@ -19,13 +20,18 @@
 namespace nanomap {
 
 /// What NanoMap takes in from LCM.
-enum class InputKind : std::uint8_t { kPose, kCorrection, kCamera, kDepth };
-inline constexpr std::size_t kInputKindCount = 4;
+enum class InputKind : std::uint8_t { kPose, kCorrection, kCamera, kDepth, kGoal };
+inline constexpr std::size_t kInputKindCount = 5;
 
 [[nodiscard]] std::string_view toString(InputKind kind);
 
 /// The configured channel of that kind.
 [[nodiscard]] const std::string& channelOf(const LcmParameters& lcm, InputKind kind);
+
+struct PoseInput {
+  BodyPose pose;
+  std::optional<BodyMotion> motion;  ///< empty: the message does not say
+};
 
 struct CameraInput {
   std::string name;
@@ -38,7 +44,7 @@ struct DepthInput {
 };
 
 /// Alternatives in the order of InputKind.
-using Input = std::variant<BodyPose, Correction, CameraInput, DepthInput>;
+using Input = std::variant<PoseInput, Correction, CameraInput, DepthInput, Goal>;
 
 /// Messages of the configured channels as values of core, whatever type carries them: each type is recognised by its
 /// hash. Numbers the messages of types that have no sequence number, and gives epochs to poses that have none.

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "firmware_app/pipeline/vehicle_state.h"
+
 namespace nanomap {
 namespace {
 
@@ -30,12 +32,22 @@ Pipeline::Outcome Pipeline::feed(InputKind kind, Bytes message) {
   return std::visit([this](auto&& input) { return take(std::move(input)); }, std::get<Input>(std::move(outcome)));
 }
 
-Pipeline::Outcome Pipeline::take(const BodyPose& pose) {
-  return {.views_inserted = chain_.addPose(pose).views_inserted};
+Pipeline::Outcome Pipeline::take(const PoseInput& input) {
+  const Chain::PoseOutcome outcome = chain_.addPose(input.pose);
+  const bool newest = !state_ || input.pose.stamp > state_->stamp;
+  if (newest && outcome.verdict == PoseVerdict::kAccepted) {
+    state_ = vehicleStateAt(input.pose, input.motion, chain_.poses());
+  }
+  return {.views_inserted = outcome.views_inserted};
 }
 
 Pipeline::Outcome Pipeline::take(const Correction& correction) {
   chain_.addCorrection(correction);
+  return {};
+}
+
+Pipeline::Outcome Pipeline::take(const Goal& goal) {
+  goal_ = goal;
   return {};
 }
 

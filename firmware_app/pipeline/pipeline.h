@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "core/chain.h"
+#include "core/goal.h"
+#include "core/vehicle_state.h"
 #include "firmware_app/configuration/configuration.h"
 #include "firmware_app/pipeline/message_intake.h"
 #include "firmware_app/pipeline/view_builder.h"
@@ -40,18 +42,28 @@ class Pipeline {
 
   [[nodiscard]] std::optional<InputKind> kindOf(std::string_view channel) const { return intake_.kindOf(channel); }
   [[nodiscard]] const Chain& chain() const { return chain_; }
+
+  /// How the vehicle moves at the newest pose by stamp that the chain has accepted; empty before the first.
+  [[nodiscard]] const std::optional<VehicleState>& state() const { return state_; }
+
+  /// The goal received last, whatever its stamp and number: who restarts begins to count anew.
+  [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
+
   [[nodiscard]] const ViewBuilder& viewBuilder() const { return view_builder_; }
   [[nodiscard]] const PipelineCounters& counters() const { return counters_; }
 
  private:
-  Outcome take(const BodyPose& pose);
+  Outcome take(const PoseInput& input);
   Outcome take(const Correction& correction);
   Outcome take(const CameraInput& camera);
   Outcome take(DepthInput depth);
+  Outcome take(const Goal& goal);
 
   MessageIntake intake_;
   ViewBuilder view_builder_;
   Chain chain_;
+  std::optional<VehicleState> state_;
+  std::optional<Goal> goal_;
   PipelineCounters counters_;
 };
 

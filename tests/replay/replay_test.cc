@@ -54,7 +54,7 @@ TEST(Replay, AnswersAreThoseOfCore) {
   ASSERT_EQ(last.answers.size(), fan.size()) << "nothing of the flight lies ahead of its last frame";
   std::uint64_t free = 0;
   for (std::size_t i = 0; i < fan.size(); ++i) {
-    const QueryReply reply = query(snapshot, fan[i], configuration.query);
+    const QueryReply reply = query(snapshot, fan[i], configuration.planner.risk.query);
     EXPECT_EQ(last.answers[i].status, static_cast<std::int8_t>(reply.status));
     EXPECT_EQ(last.answers[i].distances.at(0), reply.neighbours[0].distance_m);
     EXPECT_EQ(static_cast<std::uint32_t>(last.answers[i].view_index), reply.view_index.value());
@@ -114,8 +114,8 @@ TEST(Replay, MessagesAreMergedByLogTime) {
 
 TEST(Replay, FromAndToCutTheLog) {
   ReplayOptions options;
-  options.from = std::chrono::milliseconds(300);
-  options.to = std::chrono::milliseconds(600);
+  options.span.from = std::chrono::milliseconds(300);
+  options.span.to = std::chrono::milliseconds(600);
   const auto flight = smallFlight();
   const auto answers = readAnswers(answersOf(flight, "answers", {}, options));
   ASSERT_EQ(answers.size(), 4U) << "the camera of before is known";

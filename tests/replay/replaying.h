@@ -27,7 +27,7 @@ std::uint64_t sumOf(const Counters& counters) {
 inline ReplayReport replayed(const std::filesystem::path& path, const Configuration& configuration = {},
                              const ReplayOptions& options = {}) {
   LogReader log(path);
-  return replay(log, configuration, options, nullptr);
+  return replay(log, configuration, options);
 }
 
 /// Replays into a log of answers. @return its path
@@ -36,7 +36,7 @@ inline std::filesystem::path answersOf(const std::filesystem::path& path, const 
   LogReader log(path);
   const std::filesystem::path out = testFile(name);
   LogWriter answers(out);
-  (void)replay(log, configuration, options, &answers);
+  (void)replay(log, configuration, options, {.answers = &answers});
   answers.close();
   return out;
 }

@@ -14,7 +14,7 @@ FlownPath::FlownPath(LogReader& log, const std::vector<LogEvent>& events, const 
     if (log.channelOf(event) != configuration.lcm.pose_channel) continue;
     log.read(event, message);
     const auto outcome = intake.read(InputKind::kPose, message);
-    if (const auto* input = std::get_if<Input>(&outcome)) (void)poses_.insert(std::get<BodyPose>(*input));
+    if (const auto* input = std::get_if<Input>(&outcome)) (void)poses_.insert(std::get<PoseInput>(*input).pose);
   }
 }
 

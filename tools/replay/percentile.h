@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "core/time.h"
@@ -7,8 +10,16 @@
 namespace nanomap {
 
 /// Nearest-rank percentile: the smallest sample that at least `fraction` of the samples do not exceed. 1 is the
-/// largest; 0 without samples.
+/// largest; a sample's zero without samples.
 /// @param fraction  above 0, up to 1
-[[nodiscard]] Duration percentile(std::vector<Duration> samples, double fraction);
+template <class Sample = Duration>
+[[nodiscard]] Sample percentile(std::vector<Sample> samples, double fraction) {
+  if (samples.empty()) return Sample{};
+  const double rank = std::ceil(fraction * static_cast<double>(samples.size()));
+  const auto index = static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+  const auto at = samples.begin() + std::min(index, std::ssize(samples) - 1);
+  std::nth_element(samples.begin(), at, samples.end());
+  return *at;
+}
 
 }  // namespace nanomap

@@ -1,11 +1,11 @@
 #include "tools/replay/replay.h"
 
-#include <algorithm>
 #include <chrono>
-#include <stdexcept>
 #include <thread>
 
+#include "planner/planner.h"
 #include "tools/replay/answers.h"
+#include "tools/replay/moment.h"
 
 namespace nanomap {
 namespace {
@@ -35,16 +35,15 @@ class Answerer {
            LogWriter* log, ReplayReport& report)
       : configuration_(configuration), options_(options), flown_path_(flown_path), log_(log), report_(report) {}
 
-  void answer(const Chain& chain, double range_m, Time log_stamp) {
-    chain.snapshotInto(snapshot_);
-    std::vector<UncertainPoint> points_B = fanPoints(options_.fan, snapshot_.T_W_B.rotation, range_m);
+  void answer(const ChainSnapshot& snapshot, double range_m, Time log_stamp) {
+    std::vector<UncertainPoint> points_B = fanPoints(options_.fan, snapshot.T_W_B.rotation, range_m);
     const std::size_t fan_count = points_B.size();
-    const auto flown_B = flown_path_.ahead(snapshot_, options_.flown_path);
+    const auto flown_B = flown_path_.ahead(snapshot, options_.flown_path);
     points_B.insert(points_B.end(), flown_B.begin(), flown_B.end());
 
     replies_.resize(points_B.size());
     const Clock::time_point start = Clock::now();
-    queryBatch(snapshot_, points_B, configuration_.query, replies_);
+    queryBatch(snapshot, points_B, configuration_.planner.risk.query, replies_);
     const Duration elapsed = Clock::now() - start;
     report_.query_times.push_back(elapsed);
     report_.point_times.push_back(elapsed / static_cast<std::int64_t>(points_B.size()));
@@ -54,7 +53,7 @@ class Answerer {
     }
     ++report_.answered_frames;
     if (log_ != nullptr) {
-      log_->write(configuration_.lcm.answers_channel, log_stamp, toMessage(snapshot_, points_B, replies_, fan_count));
+      log_->write(configuration_.lcm.answers_channel, log_stamp, toMessage(snapshot, points_B, replies_, fan_count));
     }
   }
 
@@ -64,42 +63,55 @@ class Answerer {
   const FlownPath& flown_path_;
   LogWriter* log_;
   ReplayReport& report_;
-  ChainSnapshot snapshot_;
   std::vector<QueryReply> replies_;
+};
+
+/// Plans, counts and writes the decisions.
+class Decider {
+ public:
+  Decider(const Configuration& configuration, LogWriter* log, ReplayReport& report)
+      : planner_(configuration.planner), channel_(configuration.lcm.decisions_channel), log_(log), report_(report) {}
+
+  void decide(const Moment& moment, Time log_stamp) {
+    const Clock::time_point start = Clock::now();
+    const Decision decision = planner_.plan(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp);
+    report_.plan_times.push_back(Clock::now() - start);
+    if (log_ != nullptr) log_->write(channel_, log_stamp, toMessage(decision, report_.plans.total()));
+    report_.plans.record(decision);
+  }
+
+ private:
+  Planner planner_;
+  const std::string& channel_;
+  LogWriter* log_;
+  ReplayReport& report_;
 };
 
 }  // namespace
 
 ReplayReport replay(LogReader& log, const Configuration& configuration, const ReplayOptions& options,
-                    LogWriter* answers) {
-  std::vector<LogEvent> events = log.mergedByTime();
-  if (events.empty()) throw std::runtime_error("the log holds no event: was anything published while it was recorded?");
-  const Time start = events.front().log_stamp;
-  const Time from = start + options.from;
-
+                    const ReplayOutputs& outputs) {
+  Playback playback(log, configuration, options.span);
   ReplayReport report(configuration.chain.history_views);
-  report.log_span = events.back().log_stamp - start;
+  report.log_span = playback.logEnd() - playback.logStart();
   report.damage = log.damage();
-  for (const LogEvent& event : events) ++report.events_by_channel[log.channelOf(event)];
+  for (const LogEvent& event : log.events()) ++report.events_by_channel[log.channelOf(event)];
 
-  Pipeline pipeline(configuration);
-  std::erase_if(events, [&](const LogEvent& event) {
-    const auto kind = pipeline.kindOf(log.channelOf(event));
-    return !kind || (event.log_stamp < from && *kind != InputKind::kCamera);
-  });
-  const FlownPath flown_path(log, events, configuration);
-  Answerer answerer(configuration, options, flown_path, answers, report);
-  const Pacer pacer(options.rate, from);
-  std::vector<std::uint8_t> message;
-  for (const LogEvent& event : events) {
-    if (options.to && event.log_stamp > start + *options.to) break;
-    pacer.waitFor(event.log_stamp);
-    log.read(event, message);
-    const Pipeline::Outcome outcome = pipeline.feed(*pipeline.kindOf(log.channelOf(event)), message);
+  const Pipeline& pipeline = playback.pipeline();
+  const FlownPath flown_path(log, playback.events(), configuration);
+  Answerer answerer(configuration, options, flown_path, outputs.answers, report);
+  Decider decider(configuration, outputs.decisions, report);
+  const Pacer pacer(options.rate, playback.logStart() + options.span.from);
+  Moment moment;
+  while (const auto next_stamp = playback.nextStamp()) {
+    pacer.waitFor(*next_stamp);
+    const auto [log_stamp, outcome] = playback.step();
     if (outcome.build_time) report.build_times.push_back(*outcome.build_time);
-    if (outcome.camera == CameraVerdict::kChanged) report.camera_changes.push_back(event.log_stamp - start);
+    if (outcome.camera == CameraVerdict::kChanged) report.camera_changes.push_back(log_stamp - playback.logStart());
     if (outcome.views_inserted > 0) {
-      answerer.answer(pipeline.chain(), pipeline.viewBuilder().camera()->frustum().far_m, event.log_stamp);
+      takeMoment(pipeline, options.goal, moment);
+      answerer.answer(moment.snapshot, pipeline.viewBuilder().camera()->frustum().far_m, log_stamp);
+      decider.decide(moment, log_stamp);
     }
   }
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/goal.h"
 #include "core/query_statistics.h"
 #include "drivers/recording/log_reader.h"
 #include "drivers/recording/log_writer.h"
@@ -14,19 +14,27 @@
 #include "firmware_app/pipeline/pipeline.h"
 #include "tools/replay/fan.h"
 #include "tools/replay/flown_path.h"
+#include "tools/replay/plan_statistics.h"
+#include "tools/replay/playback.h"
 
 namespace nanomap {
 
-/// Which part of a log, and how fast.
+/// Which part of a log, how fast, and what is asked of it.
 struct ReplayOptions {
-  Duration from{};             ///< after the log's first event
-  std::optional<Duration> to;  ///< after the log's first event; empty: to its end
-  std::optional<double> rate;  ///< times real time; empty: as fast as it goes
+  LogSpan span;
+  std::optional<double> rate{};  ///< times real time; empty: as fast as it goes
+  std::optional<Goal> goal{};    ///< instead of the log's, always of the world that the vehicle is in
   FanParameters fan{};
   FlownPathParameters flown_path{};
 };
 
-/// All that a replay found out, the answers aside.
+/// Logs to write; null: not written. One log may hold both.
+struct ReplayOutputs {
+  LogWriter* answers = nullptr;
+  LogWriter* decisions = nullptr;
+};
+
+/// All that a replay found out, answers and decisions aside.
 struct ReplayReport {
   explicit ReplayReport(std::size_t history_views) : fan(history_views), flown_path(history_views) {}
 
@@ -39,22 +47,23 @@ struct ReplayReport {
   std::uint64_t answered_frames = 0;  ///< messages of answers
   QueryStatistics fan;
   QueryStatistics flown_path;
+  PlanStatistics plans;
   std::vector<Duration> camera_changes;  ///< when, after the log's first event
   std::string last_camera_fault;
   bool has_camera = false;
   std::vector<Duration> build_times;  ///< measured, one a view
   std::vector<Duration> query_times;  ///< measured, one a batch
   std::vector<Duration> point_times;  ///< the same, divided by the batch's points
+  std::vector<Duration> plan_times;   ///< measured, one a decision
 };
 
-/// Runs the log through a pipeline on this thread, events merged by log time, and answers the fan of motions and the
-/// flight's own next seconds whenever a view enters the chain. Camera models from before `from` are taken in as well.
-/// The answers are a function of the log, the configuration and the options: they hold no measured time, and carry the
-/// log time of the event that made them.
-/// @param answers  where they are written; null: nowhere
+/// Runs the log through a pipeline and the planner on this thread. Whenever a view enters the chain, the fan of motions
+/// and the flight's own next seconds are answered and a plan is made, each for the snapshot's stamp.
+/// Answers and decisions are a function of the log, the configuration and the options: they hold no measured time, and
+/// carry the log time of the event that made them.
 /// @throws std::runtime_error if the log holds no event; std::invalid_argument for a configuration that cannot be;
 ///         LogError if a log cannot be read or written
 [[nodiscard]] ReplayReport replay(LogReader& log, const Configuration& configuration, const ReplayOptions& options,
-                                  LogWriter* answers);
+                                  const ReplayOutputs& outputs = {});
 
 }  // namespace nanomap

@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "tools/replay/percentile.h"
+#include "tools/replay/plan_summary.h"
+#include "tools/replay/text.h"
 #include "tools/replay/warnings.h"
 
 namespace nanomap {
 namespace {
-
-constexpr double kPercent = 100.0;
 
 /// Of the paper's figure: how much the last 40 views answer.
 constexpr std::size_t kRecentViews = 40;
@@ -19,28 +18,6 @@ constexpr std::size_t kRecentViews = 40;
 /// Histogram rows: the first depth of each; the last row is open.
 constexpr std::array<std::size_t, 9> kDepthRows = {0, 1, 2, 5, 10, 20, 40, 80, 160};
 constexpr double kBarWidth = 40.0;
-
-class Text {
- public:
-  template <class... Args>
-  void line(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
-    text_ += '\n';
-  }
-
-  /// One indented line for every reason that occurred.
-  template <class Enum, class Counters>
-  void reasons(const Counters& counters) {
-    for (std::size_t i = 0; i < counters.size(); ++i) {
-      if (counters[i] > 0) line("    {:>8}  {}", counters[i], toString(static_cast<Enum>(i)));
-    }
-  }
-
-  [[nodiscard]] std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
 
 void writeLog(Text& text, const ReplayReport& report) {
   std::uint64_t events = 0;
@@ -86,10 +63,6 @@ void writeInputs(Text& text, const ReplayReport& report) {
 
   text.line("history: {} views retired, {} edges without increment covariances", report.chain.views_retired,
             report.chain.increments_missing);
-}
-
-double share(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0.0 : kPercent * static_cast<double>(part) / static_cast<double>(whole);
 }
 
 void writeStatuses(Text& text, const ReplayReport& report) {
@@ -139,6 +112,7 @@ void writeLatencies(Text& text, const ReplayReport& report) {
   writeLatency(text, "index of a frame", report.build_times);
   writeLatency(text, "all points of a frame", report.query_times);
   writeLatency(text, "one point, on average", report.point_times);
+  writeLatency(text, "a plan", report.plan_times);
 }
 
 }  // namespace
@@ -149,6 +123,7 @@ std::string summaryOf(const ReplayReport& report, const Configuration& configura
   writeInputs(text, report);
   writeStatuses(text, report);
   writeHistory(text, report);
+  writePlans(text, report.plans);
   writeLatencies(text, report);
   for (const std::string& warning : warningsOf(report, configuration)) text.line("warning: {}", warning);
   return text.take();

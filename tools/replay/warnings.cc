@@ -26,6 +26,8 @@ std::string_view channelKey(InputKind kind) {
       return "lcm.correction_channel";
     case InputKind::kCamera:
       return "lcm.camera_channel";
+    case InputKind::kGoal:
+      return "lcm.goal_channel";
     case InputKind::kDepth:
       break;
   }

@@ -41,10 +41,10 @@ TEST(Load, EmptyFileGivesCoresDefaults) {
   EXPECT_EQ(configuration.chain.drift.after, DriftModel{}.after);
   EXPECT_EQ(configuration.chain.drift.law, DriftModel{}.law);
   EXPECT_EQ(configuration.chain.drift.use_increments, DriftModel{}.use_increments);
-  EXPECT_EQ(configuration.query.k, QueryOptions{}.k);
-  EXPECT_EQ(configuration.query.occlusion, QueryOptions{}.occlusion);
-  EXPECT_EQ(configuration.query.open_window_px, QueryOptions{}.open_window_px);
-  EXPECT_EQ(configuration.query.open_range_fraction, QueryOptions{}.open_range_fraction);
+  EXPECT_EQ(configuration.planner.risk.query.k, QueryOptions{}.k);
+  EXPECT_EQ(configuration.planner.risk.query.occlusion, QueryOptions{}.occlusion);
+  EXPECT_EQ(configuration.planner.risk.query.open_window_px, QueryOptions{}.open_window_px);
+  EXPECT_EQ(configuration.planner.risk.query.open_range_fraction, QueryOptions{}.open_range_fraction);
 }
 
 TEST(Load, EveryTypeOfValueArrives) {
@@ -162,7 +162,7 @@ TEST(Load, OverrideWinsOverTheFile) {
   EXPECT_EQ(parsed("", {"history.views=20", "history.views=30"}).chain.history_views, 30U);
 }
 
-TEST(Load, OverrideReplacesAWrongValueOfTheFile) { EXPECT_EQ(parsed("[query]\nk = 0\n", {"query.k=4"}).query.k, 4); }
+TEST(Load, OverrideReplacesAWrongValueOfTheFile) { EXPECT_EQ(parsed("[query]\nk = 0\n", {"query.k=4"}).planner.risk.query.k, 4); }
 
 TEST(Load, OverrideNeedsNoQuotes) {
   EXPECT_EQ(parsed("", {"drift.law=linear"}).chain.drift.law, GrowthLaw::kLinear);

@@ -55,16 +55,16 @@ TEST(MessageIntake, BodyPoseKeepsItsOwnEpochAndSequence) {
   pose.epoch = 3;
   pose.sequence = 77;
   MessageIntake intake{LcmParameters{}};
-  const auto read = taken<BodyPose>(intake, InputKind::kPose, encoded(toMessage(pose, std::nullopt)));
+  const auto read = taken<PoseInput>(intake, InputKind::kPose, encoded(toMessage(pose, std::nullopt))).pose;
   EXPECT_EQ(read.epoch, 3U);
   EXPECT_EQ(read.sequence, 77U);
 }
 
 TEST(MessageIntake, PoseWithoutEpochAndSequenceGetsBoth) {
   MessageIntake intake{LcmParameters{}};
-  const auto first = taken<BodyPose>(intake, InputKind::kPose, encoded(poseMessage(0, 0.0)));
-  const auto second = taken<BodyPose>(intake, InputKind::kPose, encoded(poseMessage(10'000, 0.1)));
-  const auto jumped = taken<BodyPose>(intake, InputKind::kPose, encoded(poseMessage(20'000, 9.0)));
+  const auto first = taken<PoseInput>(intake, InputKind::kPose, encoded(poseMessage(0, 0.0))).pose;
+  const auto second = taken<PoseInput>(intake, InputKind::kPose, encoded(poseMessage(10'000, 0.1))).pose;
+  const auto jumped = taken<PoseInput>(intake, InputKind::kPose, encoded(poseMessage(20'000, 9.0))).pose;
   EXPECT_EQ(first.sequence, 0U);
   EXPECT_EQ(second.sequence, 1U);
   EXPECT_EQ(second.epoch, 0U);
@@ -75,7 +75,7 @@ TEST(MessageIntake, PoseConventionIsTheConfiguredOne) {
   LcmParameters lcm;
   lcm.pose_t_body = BodyConvention::kFrd;
   MessageIntake intake{lcm};
-  const auto read = taken<BodyPose>(intake, InputKind::kPose, encoded(poseMessage(0, 0.0)));
+  const auto read = taken<PoseInput>(intake, InputKind::kPose, encoded(poseMessage(0, 0.0))).pose;
   EXPECT_LT((read.T_W_B.rotation * Vec3::UnitZ() + Vec3::UnitZ()).norm(), 1e-12);
 }
 
