@@ -19,10 +19,10 @@ inline CameraParameters flightCamera() {
   return camera;
 }
 
-/// Defaults, but for the window that tells sky from a hole: sized to the small image (6 degrees).
+/// Defaults, but for the window that tells sky from a hole: the angle that the default spans in 320 pixels.
 inline PlannerParameters flightParameters() {
   PlannerParameters parameters;
-  parameters.risk.query.open_window_px = 5;
+  parameters.risk.query.open_window_px = 10;
   return parameters;
 }
 
