@@ -1,7 +1,7 @@
 #include "planner/candidates.h"
 
 #include "planner/brake.h"
-#include "planner/level_frame.h"
+#include "core/level_frame.h"
 
 namespace nanomap {
 

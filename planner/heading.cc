@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/level_frame.h"
+#include "core/level_frame.h"
 
 namespace nanomap {
 

@@ -8,7 +8,7 @@
 #include "planner/candidates.h"
 #include "planner/heading.h"
 #include "planner/input_check.h"
-#include "planner/level_frame.h"
+#include "core/level_frame.h"
 
 namespace nanomap {
 namespace {

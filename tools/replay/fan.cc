@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/level_frame.h"
+
 namespace nanomap {
 namespace {
 
@@ -22,7 +24,7 @@ Vec3 onMotion(double heading_rad, double climb_rad, double distance_m, double ra
 }  // namespace
 
 std::vector<UncertainPoint> fanPoints(const FanParameters& parameters, const Quat& R_W_B, double range_m) {
-  const Quat R_B_L = bodyFromLevel(R_W_B);
+  const Mat3 R_B_L = R_W_B.conjugate().toRotationMatrix() * levelAxes(yawOf(R_W_B));
   std::vector<UncertainPoint> points_B;
   points_B.reserve(static_cast<std::size_t>(parameters.headings) * static_cast<std::size_t>(parameters.climbs) *
                    static_cast<std::size_t>(parameters.samples));
@@ -38,12 +40,6 @@ std::vector<UncertainPoint> fanPoints(const FanParameters& parameters, const Qua
     }
   }
   return points_B;
-}
-
-Quat bodyFromLevel(const Quat& R_W_B) {
-  const Vec3 forward_W = R_W_B * Vec3::UnitX();
-  const Quat R_W_L(Eigen::AngleAxisd(std::atan2(forward_W.y(), forward_W.x()), Vec3::UnitZ()));
-  return R_W_B.conjugate() * R_W_L;
 }
 
 }  // namespace nanomap

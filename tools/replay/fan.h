@@ -25,7 +25,4 @@ struct FanParameters {
 /// @param R_W_B  the vehicle's orientation
 [[nodiscard]] std::vector<UncertainPoint> fanPoints(const FanParameters& parameters, const Quat& R_W_B, double range_m);
 
-/// R_B_L: from the level frame to the body. A body that looks straight up or down has the yaw 0.
-[[nodiscard]] Quat bodyFromLevel(const Quat& R_W_B);
-
 }  // namespace nanomap

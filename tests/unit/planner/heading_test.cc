@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "planner/level_frame.h"
+#include "core/level_frame.h"
 #include "tests/support/camera.h"
 
 namespace nanomap {

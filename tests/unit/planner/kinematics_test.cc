@@ -7,7 +7,7 @@
 
 #include "planner/brake.h"
 #include "planner/candidates.h"
-#include "planner/level_frame.h"
+#include "core/level_frame.h"
 
 namespace nanomap {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "planner/level_frame.h"
+#include "core/level_frame.h"
 #include "tests/unit/planner/flight.h"
 
 namespace nanomap {

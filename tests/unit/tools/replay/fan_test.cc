@@ -77,11 +77,5 @@ TEST(Fan, SingleMotionIsTheOneAhead) {
   EXPECT_EQ(points[0].mean_m, Vec3(kRange_m, 0.0, 0.0));
 }
 
-TEST(LevelFrame, OfABodyLookingStraightUpExists) {
-  const Quat R_W_B(Eigen::AngleAxisd(-M_PI / 2.0, Vec3::UnitY()));
-  EXPECT_TRUE(bodyFromLevel(R_W_B).coeffs().allFinite());
-  EXPECT_LT((R_W_B * (bodyFromLevel(R_W_B) * Vec3::UnitZ()) - Vec3::UnitZ()).norm(), 1e-9);
-}
-
 }  // namespace
 }  // namespace nanomap
