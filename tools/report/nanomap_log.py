@@ -39,7 +39,9 @@ class Channels:
     pose_channel: str = "POSE_BODY"
     correction_channel: str = "POSE_CORRECTION"
     camera_channel: str = "CAMERA"
+    goal_channel: str = "GOAL"
     answers_channel: str = "NANOMAP_ANSWERS"
+    decisions_channel: str = "NANOMAP_DECISIONS"
 
     def inputs(self) -> dict[str, type]:
         """Channel -> message type of what a replay takes in."""
@@ -52,6 +54,9 @@ class Channels:
 
     def answers(self) -> dict[str, type]:
         return {self.answers_channel: nanomap.answers_t}
+
+    def decisions(self) -> dict[str, type]:
+        return {self.decisions_channel: nanomap.decision_t}
 
 
 def read_channels(config: Path | None) -> Channels:

@@ -57,7 +57,7 @@ def check(log: Path, answers: Path, config: Path, overrides: list[str], sample: 
     told = (event.message for event in events(answers, channels.answers()))
     count = 0
     for event in events(log, channels.inputs()):
-        if not _feed(chain, cameras, event.message):
+        if not feed(chain, cameras, event.message):
             continue
         message = next(told, None)
         if message is None:
@@ -73,7 +73,7 @@ def check(log: Path, answers: Path, config: Path, overrides: list[str], sample: 
     return Outcome(tally, list(MUTATIONS) if unseen is None else unseen, chain.corrections)
 
 
-def _feed(chain: Chain, cameras: dict[str, Camera], message) -> int:
+def feed(chain: Chain, cameras: dict[str, Camera], message) -> int:
     """Returns how many views the message let into the chain."""
     match message:
         case nanomap.camera_model_t():

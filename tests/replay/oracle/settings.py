@@ -24,16 +24,19 @@ class Settings:
     open_range_fraction: float
 
 
-def read_settings(path: Path, overrides: list[str]) -> Settings:
-    """Every key must be in the file: the oracle has no defaults that could agree with the module's by chance.
-
-    `overrides` are "section.key=value", as nanomap-replay's --set takes them.
-    """
+def read_document(path: Path, overrides: list[str]) -> dict:
+    """The file's sections, with `overrides` "section.key=value", as nanomap-replay's --set takes them."""
     document = tomllib.loads(path.read_text())
     for override in overrides:
         name, value = override.split("=", 1)
         section, key = name.split(".")
         document[section][key] = tomllib.loads(f"value = {value}")["value"]
+    return document
+
+
+def read_settings(path: Path, overrides: list[str]) -> Settings:
+    """Every key must be in the file: the oracle has no defaults that could agree with the module's by chance."""
+    document = read_document(path, overrides)
     history, drift, query = document["history"], document["drift"], document["query"]
     if query["occlusion"] != "mean" or "camera" in document:
         raise ValueError(f"{path}: the oracle knows occlusion of the mean and cameras from the log only")

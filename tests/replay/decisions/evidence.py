@@ -1,0 +1,101 @@
+"""What the views know about moments of a motion: searched and measured by brute force, without core or planner."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from chain import Step
+from motion import Motion, States
+from nanomap_log import Status
+from planner_settings import PlannerSettings
+from search import CONTAINED, search
+from tail import NEGLIGIBLE_SIGMAS, tail
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One row a moment."""
+
+    elapsed: np.ndarray  # s
+    position_W: np.ndarray  # m
+    status: np.ndarray
+    ambiguous: np.ndarray  # a status on the way was decided within rounding
+    in_bubble: np.ndarray
+    nearest: np.ndarray  # m, measured point of the view that answers; infinite if none is near enough to matter
+    risk: np.ndarray
+
+    @property
+    def seen_free(self) -> np.ndarray:
+        return self.in_bubble | np.isin(self.status, CONTAINED)
+
+    def whole_risk(self) -> float:
+        return float(1 - np.prod(1 - self.risk))
+
+
+class Space:
+    """What is known at one decision. `points` keeps the views' measured points from decision to decision."""
+
+    def __init__(self, settings: PlannerSettings, steps: list[Step], T_W_B: np.ndarray, points: dict):
+        self.settings, self.steps, self.T_W_B, self._points = settings, steps, T_W_B, points
+
+    def on(self, motion: Motion, elapsed: np.ndarray, reach_m: float = 0.0) -> Evidence:
+        """Measured points up to `reach_m` from the vehicle's surface are found, and all that risk needs."""
+        settings = self.settings
+        states = motion.at(elapsed)
+        R_W_B, t_W_B = self.T_W_B[:3, :3], self.T_W_B[:3, 3]
+        mean_B = (states.position - t_W_B) @ R_W_B
+        found = search(self.steps, mean_B, self._covariance_B(states, elapsed), R_W_B.T @ [0, 0, 1])
+        in_bubble = np.linalg.norm(mean_B, axis=1) <= settings.bubble_m
+        nearest = np.full(len(elapsed), np.inf)
+        for view in set(found.view.tolist()) - {-1}:
+            rows = np.flatnonzero(found.view == view)
+            sigma = np.sqrt(np.linalg.eigvalsh(found.covariance[rows]).max())
+            reach = settings.radius_m + max(reach_m, NEGLIGIBLE_SIGMAS * sigma)
+            nearest[rows] = _nearest(self._points_of(view), found.mean[rows], reach)
+        collision = np.array([tail(covariance, d - settings.radius_m) if np.isfinite(d) else 0.0
+                              for covariance, d in zip(found.covariance, nearest)])
+        prior = np.where(in_bubble, 0.0, settings.prior[found.status])
+        return Evidence(elapsed, states.position, found.status, found.ambiguous, in_bubble, nearest,
+                        1 - (1 - prior) * (1 - collision))
+
+    def on_samples(self, motion: Motion, steps: int) -> Evidence:
+        """At the planner's moments: equal steps of time, and finer where neighbours are farther apart than the vehicle's
+        radius and a measured point may be nearer to the way between them than to either (planner/trajectory_risk.h)."""
+        elapsed = np.linspace(0, motion.duration, steps + 1)
+        spacing = np.linalg.norm(np.diff(motion.at(elapsed).position, axis=0), axis=1)
+        coarse = self.on(motion, elapsed, reach_m=spacing.max(initial=0.0))
+        clearance = np.minimum(coarse.nearest[:-1], coarse.nearest[1:]) - self.settings.radius_m
+        fine = [elapsed]
+        for i in np.flatnonzero((clearance < spacing) & (spacing > self.settings.radius_m)):
+            parts = int(np.ceil(spacing[i] / self.settings.radius_m))
+            fine.append(np.linspace(elapsed[i], elapsed[i + 1], parts + 1)[1:-1])
+        return coarse if len(fine) == 1 else self.on(motion, np.sort(np.concatenate(fine)))
+
+    def _covariance_B(self, states: States, elapsed: np.ndarray) -> np.ndarray:
+        speed = np.linalg.norm(states.velocity, axis=1)
+        horizontal, vertical = (growth.at(speed, elapsed) for growth in (self.settings.horizontal,
+                                                                        self.settings.vertical))
+        variances_W = np.column_stack([horizontal, horizontal, vertical])**2
+        R_B_W = self.T_W_B[:3, :3].T
+        return np.einsum("ij,nj,kj->nik", R_B_W, variances_W, R_B_W)
+
+    def _points_of(self, view: int) -> np.ndarray:
+        key = self.steps[view].view
+        if key not in self._points:
+            self._points[key] = key.points()
+        return self._points[key]
+
+    def is_hidden(self, position_W: np.ndarray, status: Status) -> bool:
+        """Whether a place, known exactly and outside the bubble, has that status."""
+        mean_B = self.T_W_B[:3, :3].T @ (position_W - self.T_W_B[:3, 3])
+        found = search(self.steps, mean_B[None], np.zeros((1, 3, 3)), self.T_W_B[2, :3])
+        return bool(found.status[0] == status and np.linalg.norm(mean_B) > self.settings.bubble_m)
+
+
+def _nearest(points: np.ndarray, means: np.ndarray, reach: float) -> np.ndarray:
+    """Distance [m] of each mean to the nearest point; infinite beyond `reach`."""
+    inside = np.all((points > means.min(axis=0) - reach) & (points < means.max(axis=0) + reach), axis=1)
+    close = points[inside]
+    if len(close) == 0:
+        return np.full(len(means), np.inf)
+    nearest = np.sqrt([np.sum((close - mean)**2, axis=1).min() for mean in means])
+    return np.where(nearest <= reach, nearest, np.inf)
