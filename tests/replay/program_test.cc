@@ -57,6 +57,33 @@ TEST(ReplayProgram, WritesItsAnswers) {
   EXPECT_EQ(log.channelOf(log.events().front()), "A");
 }
 
+TEST(ReplayProgram, DecidesComparesAndExplains) {
+  const std::string log = flight() + "--goal 5,0,0 --set objective.min_altitude_W_m=-10 ";
+  const std::string verified = "'" + testFile("verified").string() + "' ";
+  const std::string paper = "'" + testFile("paper").string() + "' ";
+  const Ended run = runReplay(log + "--decisions " + verified);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("decisions: 6;"), HasSubstr("a plan ")));
+  EXPECT_EQ(runReplay(log + "--set planner.stop_check=paper --decisions " + paper).exit_code, 0);
+
+  EXPECT_EQ(runReplay("--diff " + verified + verified).exit_code, 0);
+  const Ended diff = runReplay("--diff " + verified + paper);
+  EXPECT_EQ(diff.exit_code, 1);
+  EXPECT_THAT(diff.out, AllOf(HasSubstr("they part 0.100 s"), HasSubstr("has_brake")));
+  EXPECT_EQ(runReplay("--diff " + verified + flight()).exit_code, 2);
+
+  EXPECT_THAT(runReplay(log + "--why 0.3").out, HasSubstr("plan made 0.300 s into the log"));
+  EXPECT_THAT(runReplay(log + "--why 0.3 --candidate 62").out, HasSubstr("motion of candidate 62"));
+  EXPECT_EQ(runReplay(log + "--why 9").exit_code, 1);
+}
+
+TEST(ReplayProgram, TwoOutputsNeedTwoFiles) {
+  const std::string out = "'" + testFile("out").string() + "' ";
+  const Ended run = runReplay(flight() + "--out " + out + "--decisions " + out);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("name two files"));
+}
+
 TEST(ReplayProgram, OverrideBeforeTheLogDoesNotSwallowIt) {
   EXPECT_EQ(runReplay("--set query.k=3 " + flight()).exit_code, 0);
 }
@@ -111,6 +138,9 @@ TEST(ReplayProgram, OptionsOutOfRangeAreRefused) {
   EXPECT_NE(runReplay(flight() + "--rate 0").exit_code, 0);
   EXPECT_NE(runReplay(flight() + "--from nan").exit_code, 0);
   EXPECT_NE(runReplay(flight() + "--from -1").exit_code, 0);
+  EXPECT_NE(runReplay(flight() + "--goal 1,2").exit_code, 0);
+  EXPECT_NE(runReplay(flight() + "--goal 1,2,nan").exit_code, 0);
+  EXPECT_NE(runReplay(flight() + "--goal-speed 0").exit_code, 0);
 }
 
 TEST(ReplayProgram, CheckConfigPrintsWhatHoldsWithoutALog) {

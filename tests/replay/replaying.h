@@ -41,6 +41,17 @@ inline std::filesystem::path answersOf(const std::filesystem::path& path, const 
   return out;
 }
 
+/// Replays into a log of decisions. @return its path
+inline std::filesystem::path decisionsOf(const std::filesystem::path& path, const std::string& name,
+                                         const Configuration& configuration = {}, const ReplayOptions& options = {}) {
+  LogReader log(path);
+  const std::filesystem::path out = testFile(name);
+  LogWriter decisions(out);
+  (void)replay(log, configuration, options, {.decisions = &decisions});
+  decisions.close();
+  return out;
+}
+
 struct StampedAnswers {
   Time log_stamp{};
   answers_t answers;

@@ -59,6 +59,16 @@ class FlightLog {
     writer_.write(lcm_.depth_channel, atMs(ms), toMessage(image, "front", DepthCompression::kBlosc));
   }
 
+  /// @param change  makes the goal another one than 5 m ahead of the origin
+  void goal(std::int64_t ms, const std::function<void(goal_t&)>& change = {}) {
+    goal_t goal{};
+    goal.utime = utimeFromTime(atMs(ms));
+    goal.position[0] = 5.0;
+    goal.top_speed = 2.0;
+    if (change) change(goal);
+    writer_.write(lcm_.goal_channel, atMs(ms), goal);
+  }
+
   void correction(std::int64_t ms, const Correction& correction) {
     writer_.write(lcm_.correction_channel, atMs(ms), toMessage(correction, atMs(ms)));
   }

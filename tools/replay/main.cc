@@ -9,10 +9,16 @@
 #include "firmware_app/configuration/document.h"
 #include "firmware_app/configuration/load.h"
 #include "tools/replay/arguments.h"
+#include "tools/replay/decision_diff.h"
+#include "tools/replay/decision_log.h"
 #include "tools/replay/summary.h"
 #include "tools/replay/warnings.h"
+#include "tools/replay/why.h"
 
 namespace {
+
+constexpr int kFailed = 1;
+constexpr int kNotCompared = 2;  ///< as diff(1) has it: 1 is a difference
 
 void runReplay(const nanomap::ReplayArguments& arguments, const nanomap::Configuration& configuration,
                nanomap::LogReader& log) {
@@ -30,12 +36,20 @@ void runReplay(const nanomap::ReplayArguments& arguments, const nanomap::Configu
   if (!report.has_camera) throw std::runtime_error(nanomap::explainMissingCamera(report, configuration));
 }
 
+int runDiff(const nanomap::ReplayArguments& arguments) {
+  const auto diff =
+      nanomap::compareDecisions(nanomap::readDecisions(arguments.diff[0]), nanomap::readDecisions(arguments.diff[1]));
+  fmt::print("{}", toText(diff));
+  return diff.same() ? 0 : 1;
+}
+
 /// @return the exit code
 int run(const nanomap::ReplayArguments& arguments) {
   if (arguments.help_config) {
     fmt::print("{}", nanomap::annotatedToml({}));
     return 0;
   }
+  if (!arguments.diff.empty()) return runDiff(arguments);
   const nanomap::Configuration configuration = nanomap::loadConfiguration(arguments.config, arguments.overrides);
   if (arguments.check_config) {
     fmt::print("{}", nanomap::annotatedToml(configuration));
@@ -43,7 +57,12 @@ int run(const nanomap::ReplayArguments& arguments) {
   }
   if (arguments.log.empty()) throw std::runtime_error("no log given: nanomap-replay LOG (--help lists the options)");
   nanomap::LogReader log(arguments.log);
-  runReplay(arguments, configuration, log);
+  if (arguments.why_s) {
+    const nanomap::WhyQuestion question{nanomap::fromSeconds(*arguments.why_s), arguments.candidate};
+    fmt::print("{}", nanomap::why(log, configuration, optionsFrom(arguments), question));
+  } else {
+    runReplay(arguments, configuration, log);
+  }
   return 0;
 }
 
@@ -61,6 +80,6 @@ int main(int argc, char** argv) {
     return run(arguments);
   } catch (const std::exception& error) {
     fmt::print(stderr, "nanomap-replay: {}\n", error.what());
-    return 1;
+    return arguments.diff.empty() ? kFailed : kNotCompared;
   }
 }

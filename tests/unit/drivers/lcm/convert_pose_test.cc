@@ -95,6 +95,24 @@ TEST(BodyPoseMessage, UnknownMotionIsNaNAndKnownIsKept) {
   EXPECT_EQ(known.acceleration[1], 8.0);
 }
 
+TEST(ToBodyMotion, WithoutVelocityThereIsNone) { EXPECT_FALSE(toBodyMotion(toMessage(BodyPose{}, std::nullopt))); }
+
+TEST(ToBodyMotion, UnknownAccelerationIsNone) {
+  const body_pose_t message = toMessage(BodyPose{}, BodyMotion{{1, 2, 3}, {4, 5, 6}, Vec3::Constant(kNaN)});
+  const auto motion = toBodyMotion(message);
+  ASSERT_TRUE(motion);
+  EXPECT_EQ(motion->velocity_W_m_s, Vec3(1, 2, 3));
+  EXPECT_EQ(motion->angular_rate_B_rad_s, Vec3(4, 5, 6));
+  EXPECT_EQ(motion->acceleration_W_m_s2, Vec3::Zero());
+}
+
+TEST(ToBodyMotion, HalfOfAValuePassesThrough) {
+  const auto motion = toBodyMotion(toMessage(BodyPose{}, BodyMotion{{1, kNaN, 3}, {4, 5, 6}, {kNaN, 8, 9}}));
+  ASSERT_TRUE(motion) << "core is to judge it";
+  EXPECT_TRUE(std::isnan(motion->velocity_W_m_s.y()));
+  EXPECT_TRUE(std::isnan(motion->acceleration_W_m_s2.x()));
+}
+
 /// A body that has turned left by 90 degrees, nose to local +y, as both conventions say it.
 bot_core::pose_t turnedLeft(BodyConvention convention) {
   const double half = std::sqrt(0.5);

@@ -59,6 +59,39 @@ TEST(Load, EveryTypeOfValueArrives) {
   EXPECT_EQ(configuration.lcm.pose_channel, "VIO");
 }
 
+TEST(Load, VehicleAndPlannerArriveWhereThePlannerReadsThem) {
+  const PlannerParameters planner =
+      parsed(
+          "[vehicle]\nradius_m = 0.3\nbubble_margin_m = 0.5\n[planner]\nstop_check = \"paper\"\nsamples = 40\n"
+          "max_state_age_s = 0.5\n[limits]\njerk_m_s3 = 40\n[horizon]\nmax_s = 3\n[goal_directed]\n"
+          "approach_s = 2\n[objective]\ncollision_reward = -10\n[risk]\nmax_risk = 0.01\n"
+          "collision_model = \"half_spaces\"\nprior_hole = 0.25\nprior_beyond_range = 0.5\n"
+          "vertical_per_time_m_s = 0.3\n[heading]\nreach_s = 1\n")
+          .planner;
+  EXPECT_EQ(planner.risk.collision.vehicle_radius_m, 0.3);
+  EXPECT_EQ(planner.risk.bubble_margin_m, 0.5);
+  EXPECT_EQ(planner.stop_check, StopCheck::kPaper);
+  EXPECT_EQ(planner.samples, 40);
+  EXPECT_EQ(planner.max_state_age, std::chrono::milliseconds(500));
+  EXPECT_EQ(planner.limits.jerk_m_s3, 40.0);
+  EXPECT_EQ(planner.horizon.max_s, 3.0);
+  EXPECT_EQ(planner.goal_directed.approach_s, 2.0);
+  EXPECT_EQ(planner.objective.collision_reward, -10.0);
+  EXPECT_EQ(planner.risk.max_risk, 0.01);
+  EXPECT_EQ(planner.risk.collision.model, CollisionModel::kHalfSpaces);
+  EXPECT_EQ(planner.risk.prior[static_cast<std::size_t>(Status::kHole)], 0.25);
+  EXPECT_EQ(planner.risk.prior[static_cast<std::size_t>(Status::kBeyondRange)], 0.5);
+  EXPECT_EQ(planner.risk.prior[static_cast<std::size_t>(Status::kOccluded)], 1.0);
+  EXPECT_EQ(planner.risk.vertical.per_time_m_s, 0.3);
+  EXPECT_EQ(planner.heading.reach_s, 1.0);
+}
+
+TEST(Load, PlannerParametersMustFitEachOther) {
+  EXPECT_THAT(refusal("[limits]\nhorizontal_at_rest_m_s2 = 9\n"), HasSubstr("limits.horizontal_at_full_m_s2"));
+  EXPECT_THAT(refusal("", {"planner.brake_after_s=2"}), HasSubstr("horizon.min_s"));
+  EXPECT_THAT(refusal("", {"risk.max_risk=1.5"}), HasSubstr("must be a number, 0 .. 1"));
+}
+
 TEST(Load, CameraKeepsDefaultsOfWhatItDoesNotSay) {
   const Configuration configuration = parsed(kCamera);
   ASSERT_TRUE(configuration.camera);
@@ -162,7 +195,9 @@ TEST(Load, OverrideWinsOverTheFile) {
   EXPECT_EQ(parsed("", {"history.views=20", "history.views=30"}).chain.history_views, 30U);
 }
 
-TEST(Load, OverrideReplacesAWrongValueOfTheFile) { EXPECT_EQ(parsed("[query]\nk = 0\n", {"query.k=4"}).planner.risk.query.k, 4); }
+TEST(Load, OverrideReplacesAWrongValueOfTheFile) {
+  EXPECT_EQ(parsed("[query]\nk = 0\n", {"query.k=4"}).planner.risk.query.k, 4);
+}
 
 TEST(Load, OverrideNeedsNoQuotes) {
   EXPECT_EQ(parsed("", {"drift.law=linear"}).chain.drift.law, GrowthLaw::kLinear);

@@ -1,0 +1,15 @@
+#include "tools/replay/moment.h"
+
+#include <cassert>
+
+namespace nanomap {
+
+void takeMoment(const Pipeline& pipeline, const std::optional<Goal>& other_goal, Moment& moment) {
+  assert(pipeline.state());
+  pipeline.chain().snapshotInto(moment.snapshot);
+  moment.state = *pipeline.state();
+  moment.goal = other_goal ? other_goal : pipeline.goal();
+  if (other_goal) moment.goal->epoch = moment.state.epoch;
+}
+
+}  // namespace nanomap
