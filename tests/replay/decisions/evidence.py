@@ -58,8 +58,8 @@ class Space:
                         1 - (1 - prior) * (1 - collision))
 
     def on_samples(self, motion: Motion, steps: int) -> Evidence:
-        """At the planner's moments: equal steps of time, and finer where neighbours are farther apart than the vehicle's
-        radius and a measured point may be nearer to the way between them than to either (planner/trajectory_risk.h)."""
+        """At the planner's moments: equal steps of time, and finer where neighbours are farther apart than the
+        vehicle's radius and a measured point may be nearer to the way between them than to either (planner/trajectory_risk.h)."""
         elapsed = np.linspace(0, motion.duration, steps + 1)
         spacing = np.linalg.norm(np.diff(motion.at(elapsed).position, axis=0), axis=1)
         coarse = self.on(motion, elapsed, reach_m=spacing.max(initial=0.0))

@@ -25,7 +25,7 @@ def tail(covariance: np.ndarray, radius: float) -> float:
     z, z_weights = (NODES + 1) / 2 * reach, WEIGHTS / 2 * reach
     angle, angle_weights = (NODES + 1) / 2 * np.pi / 2, WEIGHTS / 2  # mean over a quadrant
     steepness = np.cos(angle)**2 / first + np.sin(angle)**2 / second
-    planar = np.exp(-np.subtract.outer(radius**2, z**2)[:, None] * steepness / 2) / (steepness * np.sqrt(first * second))
+    planar = np.exp(-(radius**2 - z**2)[:, None] * steepness / 2) / (steepness * np.sqrt(first * second))
     density = 2 * np.exp(-z**2 / (2 * third)) / np.sqrt(2 * np.pi * third)  # both signs of z
     inside = z_weights * density @ (planar @ angle_weights)
     return float(min(erfc(radius / np.sqrt(2 * third)) + inside, 1.0))
