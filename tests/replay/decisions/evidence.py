@@ -59,7 +59,7 @@ class Space:
 
     def on_samples(self, motion: Motion, steps: int) -> Evidence:
         """At the planner's moments: equal steps of time, and finer where neighbours are farther apart than the
-        vehicle's radius and a measured point may be nearer to the way between them than to either (planner/trajectory_risk.h)."""
+        vehicle's radius and a measured point may be near the way between them (planner/trajectory_risk.h)."""
         elapsed = np.linspace(0, motion.duration, steps + 1)
         spacing = np.linalg.norm(np.diff(motion.at(elapsed).position, axis=0), axis=1)
         coarse = self.on(motion, elapsed, reach_m=spacing.max(initial=0.0))
