@@ -63,7 +63,7 @@ class Events(TemporaryFolderTest):
     def test_channels_come_from_configuration(self):
         config = self.folder / "c.toml"
         config.write_text('[lcm]\npose_channel = "VIO"\ngoal_channel = "G"\n')
-        self.assertEqual(read_channels(config), Channels(pose_channel="VIO"))
+        self.assertEqual(read_channels(config), Channels(pose_channel="VIO", goal_channel="G"))
         self.assertEqual(read_channels(None), Channels())
 
 
