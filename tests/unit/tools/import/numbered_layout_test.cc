@@ -50,7 +50,7 @@ TEST_F(NumberedLayoutTest, StampsByNumberInOrder) {
 
 TEST_F(NumberedLayoutTest, ReadsCameraToWorld) {
   frame("000000");
-  const Pose& T_W_C = readNumberedLayout(folder_.path(), 30.0).poses[0].T_W_C;
+  const Pose T_W_C = readNumberedLayout(folder_.path(), 30.0).poses[0].T_W_C;
   EXPECT_LT((T_W_C * Vec3(1.0, 0.0, 0.0) - Vec3(1.5, -1.0, 0.25)).norm(), 1e-15);
 }
 

@@ -55,7 +55,7 @@ TEST_F(TumLayoutTest, ReadsStampsFilesAndPoses) {
 
 TEST_F(TumLayoutTest, TakesQuaternionWithScalarLastAndNormalises) {
   write(kImages, kPoses);
-  const Pose& T_W_C = readTumLayout(folder_.path()).poses[0].T_W_C;
+  const Pose T_W_C = readTumLayout(folder_.path()).poses[0].T_W_C;
   EXPECT_NEAR(T_W_C.rotation.norm(), 1.0, 1e-15);
   EXPECT_LT((T_W_C * Vec3(1.0, 0.0, 0.0) - Vec3(1.0, -1.0, 0.5)).norm(), 1e-9);
 }
