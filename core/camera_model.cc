@@ -10,8 +10,6 @@
 namespace nanomap {
 namespace {
 
-constexpr double kUnitNormTolerance = 1e-3;
-
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 

@@ -10,6 +10,10 @@ using Vec3f = Eigen::Vector3f;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;
 
+/// How far the norm of a given quaternion may be off 1: orientations pass through single precision and text in places;
+/// more than that is a fault.
+inline constexpr double kUnitNormTolerance = 1e-3;
+
 /// Rigid transform. A variable of this type is named `T_A_B`: it maps a point given in B to A,
 /// `p_A = T_A_B * p_B`, and neighbouring letters meet in a product, `T_A_C = T_A_B * T_B_C`.
 struct Pose {

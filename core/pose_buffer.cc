@@ -8,9 +8,6 @@
 namespace nanomap {
 namespace {
 
-/// Orientations pass through single precision and text in places; more than that is a fault.
-constexpr double kUnitNormTolerance = 1e-3;
-
 bool usable(const DriftIncrement& increment) {
   if (increment.interval <= Duration::zero() || !increment.covariance_W_m2.allFinite()) return false;
   const Mat3& covariance = increment.covariance_W_m2;
