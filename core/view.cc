@@ -23,7 +23,7 @@ std::string_view toString(ImageFault fault) {
 }
 
 View::View(DepthImage image, std::shared_ptr<const CameraModel> camera, std::unique_ptr<const NearestPointIndex> index)
-    : image_(std::move(image)), camera_(std::move(camera)), index_(std::move(index)) {}
+    : image_(std::move(image)), camera_(std::move(camera)), index_(std::move(index)), tiles_(image_, *camera_) {}
 
 namespace {
 

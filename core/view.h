@@ -8,6 +8,7 @@
 
 #include "core/camera_model.h"
 #include "core/depth_image.h"
+#include "core/depth_tiles.h"
 #include "core/nearest_point_index.h"
 
 namespace nanomap {
@@ -23,10 +24,11 @@ inline constexpr std::size_t kImageFaultCount = 4;
 
 [[nodiscard]] std::string_view toString(ImageFault fault);
 
-/// One depth frame with its camera model and nearest-point index. Immutable, shared by every snapshot that holds it.
-/// Threads: any number of readers.
+/// One depth frame with its camera model and nearest-point index, and the bounds of its tiles. Immutable, shared by
+/// every snapshot that holds it. Threads: any number of readers.
 class View {
  public:
+  /// @pre the image has the camera's size
   View(DepthImage image, std::shared_ptr<const CameraModel> camera, std::unique_ptr<const NearestPointIndex> index);
 
   [[nodiscard]] Time stamp() const { return image_.stamp; }
@@ -34,6 +36,7 @@ class View {
   [[nodiscard]] const DepthImage& image() const { return image_; }
   [[nodiscard]] const CameraModel& camera() const { return *camera_; }
   [[nodiscard]] const NearestPointIndex& index() const { return *index_; }
+  [[nodiscard]] const DepthTiles& tiles() const { return tiles_; }
 
   /// Raw value at column `u`, row `v` inside the image.
   [[nodiscard]] std::uint16_t rawAt(int u, int v) const {
@@ -45,6 +48,7 @@ class View {
   DepthImage image_;
   std::shared_ptr<const CameraModel> camera_;
   std::unique_ptr<const NearestPointIndex> index_;
+  DepthTiles tiles_;
 };
 
 using ViewPtr = std::shared_ptr<const View>;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/camera_model.h"
+#include "core/depth_image.h"
+
+namespace nanomap {
+
+/// The least and the greatest raw depth of each square tile of a depth image: enough to tell, for most tiles, that
+/// nothing in them is nearer or farther than a limit. A pixel without depth counts as the greatest raw value.
+/// Threads: immutable, any number of readers.
+class DepthTiles {
+ public:
+  static constexpr int kEdge_px = 8;  ///< tiles at the right and bottom border may be cut
+  static constexpr std::uint16_t kNoDepth = 65535;
+
+  /// Allocates. @pre the image has the camera's size
+  DepthTiles(const DepthImage& image, const CameraModel& camera);
+
+  [[nodiscard]] int columns() const { return columns_; }
+  [[nodiscard]] int rows() const { return rows_; }
+
+  /// Row-major, `columns() * rows()` values. A tile without any depth holds kNoDepth.
+  [[nodiscard]] const std::vector<std::uint16_t>& least() const { return least_; }
+  /// The same. A tile with a pixel without depth holds kNoDepth.
+  [[nodiscard]] const std::vector<std::uint16_t>& greatest() const { return greatest_; }
+
+  [[nodiscard]] std::size_t tileAt(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
+
+ private:
+  int columns_;
+  int rows_;
+  std::vector<std::uint16_t> least_;
+  std::vector<std::uint16_t> greatest_;
+};
+
+}  // namespace nanomap

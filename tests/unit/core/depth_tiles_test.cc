@@ -1,0 +1,71 @@
+#include "core/depth_tiles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/support/drawing.h"
+
+namespace nanomap {
+namespace {
+
+using test::flatImage;
+using test::paint;
+
+constexpr unsigned kSeed = 7;
+
+/// Tile by tile and pixel by pixel.
+void expectBoundsOf(const DepthImage& image, const CameraModel& camera) {
+  constexpr int kEdge = DepthTiles::kEdge_px;
+  const DepthTiles tiles(image, camera);
+  ASSERT_EQ(tiles.columns(), (image.width_px + kEdge - 1) / kEdge);
+  ASSERT_EQ(tiles.rows(), (image.height_px + kEdge - 1) / kEdge);
+  ASSERT_EQ(tiles.least().size(), tiles.tileAt(0, tiles.rows()));
+  ASSERT_EQ(tiles.greatest().size(), tiles.tileAt(0, tiles.rows()));
+  for (int row = 0; row < tiles.rows(); ++row) {
+    for (int column = 0; column < tiles.columns(); ++column) {
+      std::uint16_t least = DepthTiles::kNoDepth;
+      std::uint16_t greatest = 0;
+      for (int v = row * kEdge; v < std::min((row + 1) * kEdge, image.height_px); ++v) {
+        for (int u = column * kEdge; u < std::min((column + 1) * kEdge, image.width_px); ++u) {
+          const std::uint16_t raw = image.pixels[static_cast<std::size_t>(v * image.width_px + u)];
+          const bool none = camera.classify(raw) == DepthReading::kNone;
+          least = std::min(least, none ? DepthTiles::kNoDepth : raw);
+          greatest = std::max(greatest, none ? DepthTiles::kNoDepth : raw);
+        }
+      }
+      ASSERT_EQ(tiles.least()[tiles.tileAt(column, row)], least) << column << ' ' << row;
+      ASSERT_EQ(tiles.greatest()[tiles.tileAt(column, row)], greatest) << column << ' ' << row;
+    }
+  }
+}
+
+TEST(DepthTiles, BoundEveryPixelOfEverySizeOfImage) {
+  std::mt19937 random(kSeed);
+  for (const int width_px : {1, 7, 8, 9, 64, 101}) {
+    for (const int height_px : {1, 8, 15, 48}) {
+      const CameraModel camera(test::smallCamera(width_px, height_px));
+      for (const double no_return_share : {0.0, 0.02, 0.9, 1.0}) {
+        expectBoundsOf(test::randomImage(camera, random, 1, 65534, no_return_share), camera);
+      }
+    }
+  }
+}
+
+TEST(DepthTiles, FollowTheCamerasOwnNoReturnValues) {
+  CameraParameters parameters = test::smallCamera();
+  for (const std::vector<std::uint16_t>& no_return_values :
+       {std::vector<std::uint16_t>{}, {0}, {65535}, {4000}, {0, 4000, 65535}}) {
+    parameters.no_return_values = no_return_values;
+    const CameraModel camera(parameters);
+    DepthImage image = flatImage(camera, 5000);
+    paint(image, 3, 11, 3, 11, 4000);
+    paint(image, 20, 20, 5, 40, 0);
+    paint(image, 30, 50, 30, 47, 65535);
+    expectBoundsOf(image, camera);
+  }
+}
+
+}  // namespace
+}  // namespace nanomap
