@@ -1,141 +1,29 @@
 #include "core/query.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace nanomap {
-namespace {
 
-/// Is the box mean +- half_size inside the frustum? Each plane is tested against the box's support in its direction.
-bool contains(const Frustum& frustum, const Vec3& mean_C, const Vec3& half_size_C) {
-  const auto side = [&](int axis, double tangent, double sign) {
-    const double distance = sign * (mean_C[axis] - tangent * mean_C.z());
-    return distance >= half_size_C[axis] + std::abs(tangent) * half_size_C.z();
-  };
-  return side(0, frustum.tan_left, 1.0) && side(0, frustum.tan_right, -1.0) &&  //
-         side(1, frustum.tan_top, 1.0) && side(1, frustum.tan_bottom, -1.0) &&  //
-         mean_C.z() - half_size_C.z() >= frustum.near_m && mean_C.z() + half_size_C.z() <= frustum.far_m;
-}
-
-/// Columns and rows of an image, ends included.
-struct PixelRect {
-  int u_min, u_max, v_min, v_max;
-};
-
-/// Is there a return in `rect` for which `speaks_against(pixel, depth_m)` holds?
-template <class Predicate>
-bool anyReturn(const View& view, const PixelRect& rect, Predicate&& speaks_against) {
-  for (int v = rect.v_min; v <= rect.v_max; ++v) {
-    for (int u = rect.u_min; u <= rect.u_max; ++u) {
-      const std::uint16_t raw = view.rawAt(u, v);
-      if (view.camera().classify(raw) == DepthReading::kNone) continue;
-      if (speaks_against(CameraModel::Pixel{u, v}, static_cast<double>(view.camera().depth(raw)))) return true;
-    }
+Location locate(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const QueryOptions& options) {
+  if (snapshot.views.empty()) return {};
+  const Location newest{classify(snapshot.views.front(), x_B, options), 0};
+  if (endsSearch(newest.status)) return newest;
+  for (std::uint32_t i = 1; i < snapshot.views.size(); ++i) {
+    const Status status = classify(snapshot.views[i], x_B, options);
+    if (endsSearch(status)) return {status, i};
   }
-  return false;
-}
-
-/// Sky rather than a hole: nothing near in the window at the pixel's level or above. What lies lower is the ground
-/// that the sky stands on; a pane has its wall beside and above it.
-bool isOpen(const View& view, CameraModel::Pixel pixel, const Vec3& up_C, const QueryOptions& options) {
-  const int reach = options.open_window_px;
-  const PixelRect window{std::max(pixel.u - reach, 0), std::min(pixel.u + reach, view.camera().width() - 1),
-                         std::max(pixel.v - reach, 0), std::min(pixel.v + reach, view.camera().height() - 1)};
-  const double far_m = options.open_range_fraction * view.camera().frustum().far_m;
-  // Looking straight up or down, the image has no level: then whatever is near speaks against sky.
-  constexpr double kLeastUpInImage = 1e-3;
-  constexpr double kLevel_px = 0.5;
-  const Eigen::Vector2d up_image = up_C.head<2>();
-  const bool has_level = up_image.norm() >= kLeastUpInImage;
-  const Eigen::Vector2d up = has_level ? Eigen::Vector2d(up_image.normalized()) : Eigen::Vector2d::Zero();
-  return !anyReturn(view, window, [&](CameraModel::Pixel at, double depth_m) {
-    const double height_px = (at.u - pixel.u) * up.x() + (at.v - pixel.v) * up.y();
-    return depth_m <= far_m && height_px >= -kLevel_px;
-  });
-}
-
-/// Does a return in the box's pixel footprint lie in front of the box's far face? @pre the box is in the frustum
-bool occludesBox(const View& view, const Vec3& mean_C, const Vec3& half_size_C) {
-  const double near_z_m = mean_C.z() - half_size_C.z();
-  const double far_z_m = mean_C.z() + half_size_C.z();
-  if (!(near_z_m > 0.0)) return true;
-  // A tangent is extreme at the near face where it points away from the axis, else at the far face.
-  const auto lowest = [&](double low) { return low / (low < 0.0 ? near_z_m : far_z_m); };
-  const auto highest = [&](double high) { return high / (high > 0.0 ? near_z_m : far_z_m); };
-  const Vec3 low = mean_C - half_size_C;
-  const Vec3 high = mean_C + half_size_C;
-  const Frustum& frustum = view.camera().frustum();
-  const auto clampX = [&](double tangent) { return std::clamp(tangent, frustum.tan_left, frustum.tan_right); };
-  const auto clampY = [&](double tangent) { return std::clamp(tangent, frustum.tan_top, frustum.tan_bottom); };
-  const double tan_x[] = {clampX(lowest(low.x())), clampX(highest(high.x()))};
-  const double tan_y[] = {clampY(lowest(low.y())), clampY(highest(high.y()))};
-  PixelRect footprint{view.camera().width() - 1, 0, view.camera().height() - 1, 0};
-  for (const double x : tan_x) {
-    for (const double y : tan_y) {
-      const CameraModel::Pixel corner = *view.camera().pixelAt(x, y);
-      footprint = {std::min(footprint.u_min, corner.u), std::max(footprint.u_max, corner.u),
-                   std::min(footprint.v_min, corner.v), std::max(footprint.v_max, corner.v)};
-    }
-  }
-  return anyReturn(view, footprint, [&](CameraModel::Pixel, double depth_m) { return depth_m <= far_z_m; });
-}
-
-/// diag(R * Sigma * R^T) without the rest of it: all that the containment test needs.
-Vec3 rotatedDiagonal(const Mat3& R, const Mat3& covariance_m2) {
-  return (R * covariance_m2).cwiseProduct(R).rowwise().sum();
-}
-
-bool endsSearch(Status status) { return status == Status::kFree || status == Status::kOpen; }
-
-}  // namespace
-
-Status classify(const View& view, const Vec3& mean_C_m, const Vec3& half_size_C_m, const Vec3& up_C,
-                const QueryOptions& options) {
-  const CameraModel& camera = view.camera();
-  const Frustum& frustum = camera.frustum();
-  const double z_m = mean_C_m.z();
-  if (!(z_m >= frustum.near_m && z_m > 0.0)) return Status::kBehind;
-  const auto pixel = camera.pixelAt(mean_C_m.x() / z_m, mean_C_m.y() / z_m);
-  if (!pixel) return Status::kOutsideFov;
-  if (!(z_m <= frustum.far_m)) return Status::kBeyondRange;
-
-  const bool box_inside = contains(frustum, mean_C_m, half_size_C_m);
-  const std::uint16_t raw = view.rawAt(pixel->u, pixel->v);
-  if (camera.classify(raw) == DepthReading::kNone) {
-    if (!isOpen(view, *pixel, up_C, options)) return Status::kHole;
-    return box_inside ? Status::kOpen : Status::kPartial;
-  }
-  if (z_m >= static_cast<double>(camera.depth(raw))) return Status::kOccluded;
-  if (!box_inside) return Status::kPartial;
-  if (options.occlusion == OcclusionTest::kFootprint && occludesBox(view, mean_C_m, half_size_C_m)) {
-    return Status::kPartial;
-  }
-  return Status::kFree;
+  return newest;
 }
 
 QueryReply query(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const QueryOptions& options) {
   assert(options.k >= 1 && options.k <= kMaxNeighbours);
   QueryReply reply;
-  if (snapshot.views.empty()) return reply;
+  const Location location = locate(snapshot, x_B, options);
+  reply.status = location.status;
+  reply.view_index = location.view_index;
+  if (!location.view_index) return reply;
 
-  std::uint32_t answering = 0;
-  for (std::uint32_t i = 0; i < snapshot.views.size(); ++i) {
-    const SnapshotView& candidate = snapshot.views[i];
-    const Vec3 mean_C = candidate.R_C_B * x_B.mean_m + candidate.t_C_B_m;
-    const Vec3 variance_C =
-        candidate.edge_covariance_C_m2.diagonal() + rotatedDiagonal(candidate.R_C_B, x_B.covariance_m2);
-    const Vec3 half_size_C = variance_C.cwiseMax(0.0).cwiseSqrt();
-    const Status status = classify(*candidate.view, mean_C, half_size_C, candidate.up_C, options);
-    if (i == 0 || endsSearch(status)) {
-      reply.status = status;
-      answering = i;
-    }
-    if (endsSearch(status)) break;
-  }
-
-  const SnapshotView& view = snapshot.views[answering];
-  reply.view_index = answering;
+  const SnapshotView& view = snapshot.views[*location.view_index];
   reply.x_C = view.toCamera(x_B);
   reply.neighbour_count = static_cast<std::uint32_t>(view.view->index().nearest(
       reply.x_C.mean_m.cast<float>(), std::span(reply.neighbours).first(static_cast<std::size_t>(options.k))));

@@ -1,10 +1,11 @@
+#include "core/classify.h"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <limits>
 #include <random>
 
-#include "core/query.h"
 #include "tests/support/drawing.h"
 
 namespace nanomap {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+
+namespace nanomap {
+
+/// What "in front of what was seen" is asked of.
+enum class OcclusionTest : std::uint8_t {
+  kMean,       ///< the mean's pixel, as in the paper (IV.A.2)
+  kFootprint,  ///< also every return in the box's pixel footprint against the box's far face
+};
+
+struct QueryOptions {
+  int k = 1;  ///< neighbours wanted, 1 .. kMaxNeighbours
+  OcclusionTest occlusion = OcclusionTest::kMean;
+  int open_window_px = 32;           ///< reach, to all sides, of the window that tells sky from a hole
+  double open_range_fraction = 0.7;  ///< returns beyond this part of the range do not speak against sky
+};
+
+}  // namespace nanomap
