@@ -156,10 +156,7 @@ std::optional<CameraModel::Pixel> CameraModel::pixelAt(double tan_x, double tan_
   const auto cell = [](double fraction, int count) { return std::min(static_cast<int>(fraction * count), count - 1); };
   const int u = cell((tan_x - frustum_.tan_left) / (frustum_.tan_right - frustum_.tan_left), width());
   const int v = cell((tan_y - frustum_.tan_top) / (frustum_.tan_bottom - frustum_.tan_top), height());
-  if (distorted_pixel_.empty()) return Pixel{u, v};
-  const int pixel =
-      distorted_pixel_[static_cast<std::size_t>(v) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(u)];
-  return Pixel{pixel % width(), pixel / width()};
+  return pixelOfCell({u, v});
 }
 
 }  // namespace nanomap

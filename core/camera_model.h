@@ -97,6 +97,15 @@ class CameraModel {
     int v = 0;
   };
 
+  /// The frustum's cross-section is cut into as many equal cells as the image has pixels: without distortion they are
+  /// the pixels. This is the pixel that sees the middle of a cell, given by column and row.
+  [[nodiscard]] Pixel pixelOfCell(Pixel cell) const {
+    if (distorted_pixel_.empty()) return cell;
+    const int pixel = distorted_pixel_[static_cast<std::size_t>(cell.v) * static_cast<std::size_t>(width()) +
+                                       static_cast<std::size_t>(cell.u)];
+    return {pixel % width(), pixel / width()};
+  }
+
   /// The pixel whose ray is nearest to the tangents (x/z, y/z); empty outside the frustum's sides.
   [[nodiscard]] std::optional<Pixel> pixelAt(double tan_x, double tan_y) const;
 
@@ -107,7 +116,7 @@ class CameraModel {
   float depth_unit_m_;
   Frustum frustum_;
   std::vector<Eigen::Vector2f> ray_tangents_;  ///< row-major, one a pixel
-  std::vector<std::int32_t> distorted_pixel_;  ///< ideal pinhole pixel -> image pixel; empty without distortion
+  std::vector<std::int32_t> distorted_pixel_;  ///< cell -> image pixel; empty without distortion
 };
 
 }  // namespace nanomap

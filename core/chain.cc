@@ -156,6 +156,7 @@ void Chain::snapshotInto(ChainSnapshot& out) const {
     const Mat3 R_C_B = T_C_B.rotation.toRotationMatrix();
     out.views.push_back({link.view, R_C_B, T_C_B.translation_m, covariance_C_m2, R_C_B * up_B});
   });
+  out.filter.assign(out.views);
 }
 
 ChainSnapshot Chain::snapshot() const {

@@ -2,7 +2,7 @@
 
 #include "core/geometry.h"
 #include "core/query_options.h"
-#include "core/snapshot.h"
+#include "core/snapshot_view.h"
 #include "core/status.h"
 #include "core/view.h"
 

@@ -5,25 +5,11 @@
 #include <vector>
 
 #include "core/geometry.h"
+#include "core/snapshot_view.h"
 #include "core/time.h"
-#include "core/view.h"
+#include "core/view_filter.h"
 
 namespace nanomap {
-
-/// One view of a snapshot, with all edges from the body to it composed:
-/// x_C = N(T_C_B * mu_B, edge_covariance + R_C_B * Sigma_B * R_C_B^T), which equals the step-by-step sum of the
-/// paper's IV.A.1 (with the rotation on both sides, as a covariance needs).
-struct SnapshotView {
-  ViewPtr view;
-  Mat3 R_C_B = Mat3::Identity();
-  Vec3 t_C_B_m = Vec3::Zero();
-  Mat3 edge_covariance_C_m2 = Mat3::Zero();  ///< accumulated over the edges
-  Vec3 up_C = Vec3::Zero();                  ///< W's z axis
-
-  [[nodiscard]] UncertainPoint toCamera(const UncertainPoint& x_B) const {
-    return {R_C_B * x_B.mean_m + t_C_B_m, edge_covariance_C_m2 + R_C_B * x_B.covariance_m2 * R_C_B.transpose()};
-  }
-};
 
 /// The chain at the moment of its newest pose. Read it from any number of threads while the chain moves on.
 struct ChainSnapshot {
@@ -33,6 +19,7 @@ struct ChainSnapshot {
   std::uint64_t pose_sequence = 0;
   std::optional<std::uint64_t> correction_sequence;  ///< of the last correction accepted
   std::vector<SnapshotView> views;                   ///< newest first
+  ViewFilter filter;                                 ///< of `views`; an empty one rules nothing out
 };
 
 }  // namespace nanomap

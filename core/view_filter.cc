@@ -1,0 +1,143 @@
+#include "core/view_filter.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "core/view_scan.h"
+
+namespace nanomap {
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-24;
+constexpr double kLengthRoundings = 64.0;
+constexpr double kVarianceRoundings = 32.0;
+/// Of a coordinate [m] or a covariance [m^2]: keeps squares far from overflow. Nothing within reason is larger.
+constexpr double kLargest = 1e6;
+/// What a slack loses when it is rounded to float, and what a depth in counts may gain.
+constexpr double kRoundingUp = 1.0 + 0x1p-20;
+
+/// Read in the lanes without a view.
+constexpr std::uint16_t kNoTile = DepthTiles::kNoDepth;
+
+bool isWithin(const auto& matrix, double limit) { return (matrix.array().abs() <= limit).all(); }
+
+bool isWithinReason(const SnapshotView& view) {
+  constexpr double kLargestOfRotation = 1.0 + kUnitRoundoff;
+  return isWithin(view.R_C_B, kLargestOfRotation) && isWithin(view.t_C_B_m, kLargest) &&
+         isWithin(view.edge_covariance_C_m2, kLargest);
+}
+
+bool isWithinReason(const UncertainPoint& x_B) {
+  return isWithin(x_B.mean_m, kLargest) && isWithin(x_B.covariance_m2, kLargest);
+}
+
+double largestTangent(const Frustum& frustum) {
+  return std::max({std::abs(frustum.tan_left), std::abs(frustum.tan_right), std::abs(frustum.tan_top),
+                   std::abs(frustum.tan_bottom)});
+}
+
+float rounded(double value) { return static_cast<float>(value); }
+
+std::size_t blocksFor(std::size_t views) { return (views + kViewLanes - 1) / kViewLanes; }
+
+void setLane(ViewLanes& lanes, std::size_t lane, const SnapshotView& view) {
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto axis = static_cast<Eigen::Index>(row);
+    for (std::size_t column = 0; column < 3; ++column) {
+      lanes.R_C_B[row][column][lane] = rounded(view.R_C_B(axis, static_cast<Eigen::Index>(column)));
+    }
+    lanes.t_C_B_m[row][lane] = rounded(view.t_C_B_m[axis]);
+    lanes.edge_variance_C_m2[row][lane] = rounded(view.edge_covariance_C_m2(axis, axis));
+  }
+  const CameraModel& camera = view.view->camera();
+  const Frustum& frustum = camera.frustum();
+  lanes.tan_left[lane] = rounded(frustum.tan_left);
+  lanes.tan_right[lane] = rounded(frustum.tan_right);
+  lanes.tan_top[lane] = rounded(frustum.tan_top);
+  lanes.tan_bottom[lane] = rounded(frustum.tan_bottom);
+  lanes.near_m[lane] = rounded(frustum.near_m);
+  lanes.far_m[lane] = rounded(frustum.far_m);
+  lanes.cells_per_tan_x[lane] = rounded(camera.width() / (frustum.tan_right - frustum.tan_left));
+  lanes.cells_per_tan_y[lane] = rounded(camera.height() / (frustum.tan_bottom - frustum.tan_top));
+  lanes.last_column[lane] = static_cast<float>(camera.width() - 1);
+  lanes.last_row[lane] = static_cast<float>(camera.height() - 1);
+  lanes.counts_per_m[lane] = rounded(1.0 / (static_cast<double>(camera.depth(1)) * kRoundingUp));
+  lanes.tile_columns[lane] = view.view->tiles().columns();
+  lanes.greatest[lane] = view.view->tiles().greatest().data();
+  if (camera.parameters().distortion.isZero()) lanes.tiled |= 1U << lane;
+}
+
+ViewLanes withoutViews() {
+  ViewLanes lanes{};
+  lanes.near_m.fill(std::numeric_limits<float>::infinity());
+  lanes.greatest.fill(&kNoTile);
+  return lanes;
+}
+
+}  // namespace
+
+void ViewFilter::assign(std::span<const SnapshotView> views) {
+  lanes_.clear();
+  reach_m_ = 0.0;
+  largest_tangent_ = 0.0;
+  largest_edge_variance_m2_ = 0.0;
+  if (!std::ranges::all_of(views, [](const SnapshotView& view) { return isWithinReason(view); })) return;
+  lanes_.resize(blocksFor(views.size()), withoutViews());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const SnapshotView& view = views[i];
+    setLane(lanes_[i / kViewLanes], i % kViewLanes, view);
+    reach_m_ = std::max(reach_m_, view.t_C_B_m.norm());
+    largest_tangent_ = std::max(largest_tangent_, largestTangent(view.view->camera().frustum()));
+    largest_edge_variance_m2_ = std::max(largest_edge_variance_m2_, view.edge_covariance_C_m2.diagonal().maxCoeff());
+  }
+}
+
+ViewFilter::Walk::Walk(const ViewFilter& filter, std::span<const SnapshotView> views, const UncertainPoint& x_B,
+                       std::uint32_t first)
+    : views_(views), first_(first) {
+  assert(filter.empty() || filter.lanes_.size() == blocksFor(views.size()));
+  if (filter.empty() || !isWithinReason(x_B)) return;
+  lanes_ = filter.lanes_;
+  const Mat3& s = x_B.covariance_m2;
+  const double variances_m2 = filter.largest_edge_variance_m2_ + s.norm();
+  const double lengths_m = x_B.mean_m.norm() + filter.reach_m_ + std::sqrt(variances_m2);
+  const double roundoff = kUnitRoundoff * kRoundingUp;
+  probe_.mean_B_m = {rounded(x_B.mean_m.x()), rounded(x_B.mean_m.y()), rounded(x_B.mean_m.z())};
+  probe_.covariance_B_m2 = {rounded(s(0, 0)),
+                            rounded(s(1, 1)),
+                            rounded(s(2, 2)),
+                            rounded(0.5 * (s(0, 1) + s(1, 0))),
+                            rounded(0.5 * (s(0, 2) + s(2, 0))),
+                            rounded(0.5 * (s(1, 2) + s(2, 1)))};
+  probe_.slack_m = rounded(kLengthRoundings * roundoff * lengths_m * (1.0 + filter.largest_tangent_));
+  probe_.slack_m2 = rounded(kVarianceRoundings * roundoff * variances_m2);
+}
+
+std::optional<std::uint32_t> ViewFilter::Walk::next() {
+  if (lanes_.empty()) return first_ < views_.size() ? std::optional(first_++) : std::nullopt;
+  for (;;) {
+    while (probed_.left == 0) {
+      block_ += scanViews(lanes_.subspan(block_), probe_, probed_);
+      if (block_ == lanes_.size()) return std::nullopt;
+      ++block_;
+    }
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(probed_.left));
+    probed_.left &= probed_.left - 1;
+    const auto view_index = static_cast<std::uint32_t>((block_ - 1) * kViewLanes) + lane;
+    if (view_index >= first_ && !isOccluded(view_index, lane)) return view_index;
+  }
+}
+
+/// Is the mean certainly not nearer than the depth that its pixel carries?
+bool ViewFilter::Walk::isOccluded(std::uint32_t view_index, std::uint32_t lane) const {
+  if ((probed_.in_cell >> lane & 1U) == 0) return false;
+  const View& view = *views_[view_index].view;
+  const CameraModel::Pixel pixel = view.camera().pixelOfCell({probed_.column[lane], probed_.row[lane]});
+  const std::uint16_t raw = view.rawAt(pixel.u, pixel.v);
+  return probed_.raw[lane] >= raw && view.camera().classify(raw) != DepthReading::kNone;
+}
+
+}  // namespace nanomap

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/geometry.h"
+#include "core/snapshot_view.h"
+#include "core/view_lanes.h"
+
+namespace nanomap {
+
+/// Rules out views of a snapshot, many at a time and in single precision, that certainly do not answer a point with
+/// kFree or kOpen. What it leaves is decided by classify(), so that no answer depends on the filter's rounding, on the
+/// vector unit, or on there being a filter at all.
+///
+/// Why it is certain. With u = 2^-24, m = |mean_B| + max |t_C_B|, T the largest tangent of a side plane and h the
+/// largest half size of a box, each of a few dozen roundings: a coordinate is off by at most 8 u m, a distance from a
+/// side plane (times the length of its normal) by 11 u m (1 + T), a half size's share of it by 4 u h (1 + T), the
+/// distance that makes a cell by 27 u m (1 + T); slack_m = 64 u (m + h) (1 + T) is above the sum of any of these that
+/// meet. A variance is off by at most 14 u times the sum of the variances that make it; slack_m2 is 32 u times that.
+///
+/// Threads: any number of readers. Allocates only when it holds more views than ever before.
+class ViewFilter {
+ public:
+  /// Views beyond all reason (no rotation, not finite, or 1000 km away) make an empty filter.
+  void assign(std::span<const SnapshotView> views);
+
+  [[nodiscard]] bool empty() const { return lanes_.empty(); }
+
+  /// The views that may answer `x_B`, in order. Borrows the filter and the views that it was assigned.
+  class Walk {
+   public:
+    /// @param first  the first view of interest
+    Walk(const ViewFilter& filter, std::span<const SnapshotView> views, const UncertainPoint& x_B, std::uint32_t first);
+
+    /// The next view; empty behind the last.
+    [[nodiscard]] std::optional<std::uint32_t> next();
+
+   private:
+    [[nodiscard]] bool isOccluded(std::uint32_t view_index, std::uint32_t lane) const;
+
+    std::span<const ViewLanes> lanes_;  ///< none: nothing is ruled out
+    std::span<const SnapshotView> views_;
+    std::uint32_t first_;    ///< views before it are of no interest
+    std::size_t block_ = 0;  ///< the block behind that of `probed_`
+    PointProbe probe_;
+    ProbedLanes probed_;
+  };
+
+ private:
+  std::vector<ViewLanes> lanes_;
+  double reach_m_ = 0.0;          ///< largest |t_C_B|
+  double largest_tangent_ = 0.0;  ///< of a side plane
+  double largest_edge_variance_m2_ = 0.0;
+};
+
+}  // namespace nanomap

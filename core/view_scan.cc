@@ -1,0 +1,203 @@
+#include "core/view_scan.h"
+
+#include "core/depth_tiles.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/view_scan.cc"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace nanomap::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Float = HWY_CAPPED(float, kViewLanes);
+using Int = hn::RebindToSigned<Float>;
+using FloatVec = hn::Vec<Float>;
+using IntVec = hn::Vec<Int>;
+using Mask = hn::Mask<Float>;
+
+/// Relative to the width or height of an image [cells]: above all rounding that does not come from the mean's position.
+constexpr float kCellRounding = 0x1p-20F;
+/// A mean whose depth is less than this many slacks has no certain cell.
+constexpr float kLeastDepthInSlacks = 16.0F;
+/// Above every raw value that is a depth for certain.
+constexpr float kGreatestCertainRaw = static_cast<float>(DepthTiles::kNoDepth - 1);
+constexpr int kTileShift = 3;
+static_assert(1 << kTileShift == DepthTiles::kEdge_px);
+
+/// One point against one vector of views: the lanes of `views` from `first` on. Bits are relative to `first`.
+/// Vectors are never members: those of some targets have no size.
+class VectorProbe {
+ public:
+  VectorProbe(const ViewLanes& views, std::size_t first, const PointProbe& probe)
+      : views_(views), first_(first), probe_(probe) {}
+
+  static std::size_t laneCount() { return hn::Lanes(Float()); }
+
+  HWY_INLINE void run(ProbedLanes& out) const {
+    const Float d;
+    const FloatVec zero = hn::Zero(d);
+    const FloatVec slack = hn::Set(d, probe_.slack_m);
+    const FloatVec z = coordinate(2);
+    const FloatVec beyond_near = hn::Add(hn::Sub(z, load(views_.near_m)), slack);
+    const FloatVec before_far = hn::Add(hn::Sub(load(views_.far_m), z), slack);
+    const FloatVec in_range = hn::Min(beyond_near, before_far);
+    if (hn::AllFalse(d, hn::Ge(in_range, zero))) return;
+
+    // Distances from the side planes, times the length of their normals (1, tangent), and the slack.
+    const FloatVec x = coordinate(0);
+    const FloatVec y = coordinate(1);
+    const FloatVec from_left = hn::Add(hn::NegMulAdd(load(views_.tan_left), z, x), slack);
+    const FloatVec from_right = hn::Add(hn::MulSub(load(views_.tan_right), z, x), slack);
+    const FloatVec from_top = hn::Add(hn::NegMulAdd(load(views_.tan_top), z, y), slack);
+    const FloatVec from_bottom = hn::Add(hn::MulSub(load(views_.tan_bottom), z, y), slack);
+    const FloatVec in_sides = hn::Min(hn::Min(from_left, from_right), hn::Min(from_top, from_bottom));
+    if (hn::AllFalse(d, hn::Ge(hn::Min(in_range, in_sides), zero))) return;
+
+    const FloatVec half_x = leastHalfSize(0);
+    const FloatVec half_y = leastHalfSize(1);
+    const FloatVec half_z = leastHalfSize(2);
+    const Mask contained =
+        hn::And(hn::And(hn::Ge(in_range, half_z), hn::Ge(from_left, support(half_x, half_z, views_.tan_left))),
+                hn::And(hn::Ge(from_right, support(half_x, half_z, views_.tan_right)),
+                        hn::And(hn::Ge(from_top, support(half_y, half_z, views_.tan_top)),
+                                hn::Ge(from_bottom, support(half_y, half_z, views_.tan_bottom)))));
+    const std::uint32_t left = bits(contained);
+    if (left == 0) return;
+
+    // Cells: the least and the greatest that the mean can fall in.
+    const Int di;
+    const Mask deep = hn::And(contained, hn::Ge(z, hn::Set(d, kLeastDepthInSlacks * probe_.slack_m)));
+    const FloatVec z_or_one = hn::IfThenElse(deep, z, hn::Set(d, 1.0F));
+    const FloatVec columns_per_m = hn::Div(load(views_.cells_per_tan_x), z_or_one);
+    const FloatVec rows_per_m = hn::Div(load(views_.cells_per_tan_y), z_or_one);
+    const FloatVec last_column = load(views_.last_column);
+    const FloatVec last_row = load(views_.last_row);
+    const IntVec column = toCell(deep, leastCell(from_left, columns_per_m, last_column), last_column);
+    const IntVec row = toCell(deep, leastCell(from_top, rows_per_m, last_row), last_row);
+    const IntVec max_column = toCell(deep, greatestCell(from_left, columns_per_m, last_column), last_column);
+    const IntVec max_row = toCell(deep, greatestCell(from_top, rows_per_m, last_row), last_row);
+    hn::Store(column, di, out.column.data() + first_);
+    hn::Store(row, di, out.row.data() + first_);
+    const auto one_cell = hn::And(hn::Eq(column, max_column), hn::Eq(row, max_row));
+    out.in_cell |= bits(hn::And(deep, hn::RebindMask(d, one_cell))) << first_;
+
+    const FloatVec raw = hn::Mul(hn::Sub(z, slack), load(views_.counts_per_m));
+    hn::Store(hn::ConvertTo(di, hn::Min(hn::Max(raw, zero), hn::Set(d, kGreatestCertainRaw))), di,
+              out.raw.data() + first_);
+
+    const IntVec tile_column = hn::ShiftRight<kTileShift>(column);
+    const IntVec tile_row = hn::ShiftRight<kTileShift>(row);
+    const auto one_tile = hn::And(hn::Eq(tile_column, hn::ShiftRight<kTileShift>(max_column)),
+                                  hn::Eq(tile_row, hn::ShiftRight<kTileShift>(max_row)));
+    const std::uint32_t in_tile = bits(hn::And(deep, hn::RebindMask(d, one_tile))) & (views_.tiled >> first_);
+    const IntVec tile_columns = hn::Load(di, views_.tile_columns.data() + first_);
+    out.left |= (left & ~(in_tile & behindTiles(hn::Add(hn::Mul(tile_row, tile_columns), tile_column), out.raw)))
+                << first_;
+  }
+
+ private:
+  HWY_INLINE FloatVec load(const ViewLanes::Floats& lanes) const { return hn::Load(Float(), lanes.data() + first_); }
+
+  /// Of the mean, in the cameras' frames.
+  HWY_INLINE FloatVec coordinate(std::size_t axis) const {
+    const Float d;
+    const auto& row = views_.R_C_B[axis];
+    const FloatVec along_z = hn::MulAdd(load(row[2]), hn::Set(d, probe_.mean_B_m[2]), load(views_.t_C_B_m[axis]));
+    const FloatVec along_yz = hn::MulAdd(load(row[1]), hn::Set(d, probe_.mean_B_m[1]), along_z);
+    return hn::MulAdd(load(row[0]), hn::Set(d, probe_.mean_B_m[0]), along_yz);
+  }
+
+  HWY_INLINE FloatVec leastHalfSize(std::size_t axis) const {
+    const Float d;
+    const auto& row = views_.R_C_B[axis];
+    const FloatVec variance =
+        hn::Add(load(views_.edge_variance_C_m2[axis]), rotatedVariance(load(row[0]), load(row[1]), load(row[2])));
+    return hn::Sqrt(hn::Max(hn::Sub(variance, hn::Set(d, probe_.slack_m2)), hn::Zero(d)));
+  }
+
+  /// r^T Sigma r, with r = (a, b, c).
+  HWY_INLINE FloatVec rotatedVariance(FloatVec a, FloatVec b, FloatVec c) const {
+    const Float d;
+    const auto& s = probe_.covariance_B_m2;
+    const FloatVec xy = hn::Set(d, s[3]);
+    const FloatVec xz = hn::Set(d, s[4]);
+    const FloatVec yz = hn::Set(d, s[5]);
+    const FloatVec from_x = hn::MulAdd(a, hn::Set(d, s[0]), hn::MulAdd(b, xy, hn::Mul(c, xz)));
+    const FloatVec from_y = hn::MulAdd(a, xy, hn::MulAdd(b, hn::Set(d, s[1]), hn::Mul(c, yz)));
+    const FloatVec from_z = hn::MulAdd(a, xz, hn::MulAdd(b, yz, hn::Mul(c, hn::Set(d, s[2]))));
+    return hn::MulAdd(a, from_x, hn::MulAdd(b, from_y, hn::Mul(c, from_z)));
+  }
+
+  /// Of the box, in the direction of a side plane's normal (1, tangent).
+  HWY_INLINE FloatVec support(FloatVec half_size, FloatVec half_z, const ViewLanes::Floats& tangent) const {
+    return hn::MulAdd(hn::Abs(load(tangent)), half_z, half_size);
+  }
+
+  /// `slacked_m` is the distance from the first plane plus the slack.
+  HWY_INLINE FloatVec greatestCell(FloatVec slacked_m, FloatVec cells_per_m, FloatVec last) const {
+    return hn::MulAdd(hn::Add(last, hn::Set(Float(), 1.0F)), hn::Set(Float(), kCellRounding),
+                      hn::Mul(cells_per_m, slacked_m));
+  }
+  HWY_INLINE FloatVec leastCell(FloatVec slacked_m, FloatVec cells_per_m, FloatVec last) const {
+    const FloatVec twice_slack = hn::Set(Float(), 2.0F * probe_.slack_m);
+    return hn::NegMulAdd(hn::Add(last, hn::Set(Float(), 1.0F)), hn::Set(Float(), kCellRounding),
+                         hn::Mul(cells_per_m, hn::Sub(slacked_m, twice_slack)));
+  }
+  /// 0 outside `valid`.
+  HWY_INLINE IntVec toCell(Mask valid, FloatVec cell, FloatVec last) const {
+    const FloatVec in_image = hn::Min(hn::Max(cell, hn::Zero(Float())), last);
+    return hn::ConvertTo(Int(), hn::IfThenElseZero(valid, in_image));
+  }
+
+  /// Bits of the lanes where the mean is not nearer than anything in the tile.
+  HWY_INLINE std::uint32_t behindTiles(IntVec tile, const std::array<std::int32_t, kViewLanes>& raw) const {
+    HWY_ALIGN std::int32_t tiles[kViewLanes];
+    hn::Store(tile, Int(), tiles);
+    std::uint32_t behind = 0;
+    for (std::size_t lane = 0; lane < laneCount(); ++lane) {
+      const std::int32_t greatest = views_.greatest[first_ + lane][tiles[lane]];
+      behind |= static_cast<std::uint32_t>(raw[first_ + lane] >= greatest) << lane;
+    }
+    return behind;
+  }
+
+  HWY_INLINE std::uint32_t bits(Mask mask) const {
+    HWY_ALIGN std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(Float(), mask, bytes);
+    return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+  }
+
+  const ViewLanes& views_;
+  std::size_t first_;
+  const PointProbe& probe_;
+};
+
+std::size_t scan(std::span<const ViewLanes> lanes, const PointProbe& probe, ProbedLanes& out) {
+  for (std::size_t block = 0; block < lanes.size(); ++block) {
+    out.left = 0;
+    out.in_cell = 0;
+    for (std::size_t first = 0; first < kViewLanes; first += VectorProbe::laneCount()) {
+      VectorProbe(lanes[block], first, probe).run(out);
+    }
+    if (out.left != 0) return block;
+  }
+  return lanes.size();
+}
+
+}  // namespace nanomap::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nanomap {
+
+HWY_EXPORT(scan);
+
+std::size_t scanViews(std::span<const ViewLanes> lanes, const PointProbe& probe, ProbedLanes& out) {
+  return HWY_DYNAMIC_DISPATCH(scan)(lanes, probe, out);
+}
+
+}  // namespace nanomap
+#endif
