@@ -2,14 +2,14 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
+from depth_points import measured_points, transformed
+from inputs import US_PER_S
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Ellipse, Polygon
-from moment import US_PER_S, Moment
-from nanomap_log import Status, depth_counts
-from style import LOOKS
+from moment import Moment
+from nanomap_log import Status
+from style import HEIGHT_BAND_M, LOOKS
 
-# Ground and crowns would cover everything: only what is at the vehicle's height is drawn.
-HEIGHT_BAND_M = 1.0
 FRUSTUMS_SHOWN = 12
 POINT_VIEWS_SHOWN = 6
 POINTS_A_VIEW = 4000
@@ -56,12 +56,7 @@ def _draw_depth_points(axes: plt.Axes, moment: Moment, height_m: float) -> np.nd
     shown = moment.views[::max(1, len(moment.views) // POINT_VIEWS_SHOWN)]
     drawn = []
     for i, view in reversed(list(enumerate(shown))):
-        depth_m = depth_counts(view.image) * camera.depth_unit
-        row, column = np.nonzero((depth_m >= camera.min_range) & (depth_m <= camera.max_range) &
-                                 ~np.isin(depth_counts(view.image), camera.no_return_values))
-        z = depth_m[row, column]
-        points_C = np.column_stack([(column - camera.cx) / camera.fx * z, (row - camera.cy) / camera.fy * z, z])
-        points_W = points_C @ view.T_W_C[:3, :3].T + view.T_W_C[:3, 3]
+        points_W = transformed(view.T_W_C, measured_points(view.image, camera))
         points_W = points_W[np.abs(points_W[:, 2] - height_m) < HEIGHT_BAND_M]
         points_W = points_W[::max(1, len(points_W) // POINTS_A_VIEW)]
         axes.scatter(points_W[:, 0], points_W[:, 1], s=1.5, color="#222222", alpha=0.7 if i == 0 else 0.15,

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import nanomap
 import numpy as np
+from inputs import US_PER_S, read_inputs
 from nanomap_log import Channels, Event, Status, events, matrix
 from track import Track
 
-US_PER_S = 1_000_000
 CONTAINED = (Status.FREE, Status.OPEN)
 
 
@@ -55,37 +55,28 @@ def gather(log: Path, answers_log: Path, channels: Channels, at_s: float | None)
 
     Raises ValueError naming the log that lacks something.
     """
-    inputs = events(log, channels.inputs())
-    if not inputs:
-        raise ValueError(f"{log}: holds nothing on the channels {', '.join(channels.inputs())}")
-    start = inputs[0].log_utime
+    inputs = read_inputs(log, channels)
+    start = inputs.events[0].log_utime
     replies = events(answers_log, channels.answers())
     if not replies:
         raise ValueError(f"{answers_log}: holds no answers on the channel {channels.answers_channel}")
     chosen = _choose(replies, None if at_s is None else start + round(at_s * US_PER_S))
     answers = chosen.message
 
-    cameras = _messages(inputs, nanomap.camera_model_t)
-    if not cameras:
-        raise ValueError(f"{log}: holds no camera model (nanomap.camera_model_t)")
-    camera = cameras[-1]
-    track = Track([pose for pose in _messages(inputs, nanomap.body_pose_t) if pose.epoch == answers.epoch])
+    camera = inputs.camera()
+    track = Track([pose for pose in inputs.messages(nanomap.body_pose_t) if pose.epoch == answers.epoch])
     if not track.covers(answers.utime):
         raise ValueError(f"{log}: holds no pose at {answers.utime} us, the time of the answers in {answers_log}. "
                          "Do the two belong together?")
 
     T_B_C = matrix(camera.body_from_camera)
-    images = {image.utime: image for image in _messages(inputs, nanomap.depth_image_t)}
+    images = {image.utime: image for image in inputs.messages(nanomap.depth_image_t)}
     stamps = sorted((utime for utime in images if utime <= answers.utime), reverse=True)[:answers.num_views]
     views = [SeenView(images[utime], track.T_W_B(utime) @ T_B_C, (answers.utime - utime) / US_PER_S)
              for utime in stamps if track.covers(utime)]
     if not views:
         raise ValueError(f"{log}: holds no depth image with a pose before {answers.utime} us")
     return Moment(log, (chosen.log_utime - start) / US_PER_S, answers, camera, views, track, _count(replies))
-
-
-def _messages(inputs: list[Event], message_type: type) -> list:
-    return [event.message for event in inputs if isinstance(event.message, message_type)]
 
 
 def _choose(replies: list[Event], at_utime: int | None) -> Event:

@@ -1,8 +1,11 @@
-"""How a status looks, the same in every panel. Colours of Okabe and Ito, told apart by colour-blind readers too."""
+"""What looks the same in every panel. Colours of Okabe and Ito, told apart by colour-blind readers too."""
 
 from dataclasses import dataclass
 
 from nanomap_log import Status
+
+# Ground and crowns would cover everything: a view from above shows what is this near to the vehicle's height.
+HEIGHT_BAND_M = 1.0
 
 
 @dataclass(frozen=True)
@@ -23,3 +26,6 @@ LOOKS = {
     Status.BEHIND: Look("behind the camera", "#4D4D4D", "<"),
     Status.EMPTY: Look("no view yet", "#000000", "*"),
 }
+
+MOTION_COLOUR = "#000000"
+BRAKE_COLOUR = "#D55E00"
