@@ -52,6 +52,9 @@ class Channels:
             self.camera_channel: nanomap.camera_model_t,
         }
 
+    def goals(self) -> dict[str, type]:
+        return {self.goal_channel: nanomap.goal_t}
+
     def answers(self) -> dict[str, type]:
         return {self.answers_channel: nanomap.answers_t}
 

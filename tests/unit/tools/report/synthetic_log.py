@@ -61,6 +61,40 @@ def answers(utime: int, x_m: float, replies: list[nanomap.answer_t], views: int,
     return message
 
 
+def trajectory(utime: int, x_m: float, speed_m_s: float, pieces: list[tuple[float, float]]) -> nanomap.trajectory_t:
+    """Along x from (x_m, 0, 1); pieces of a duration [s] and a jerk along y [m/s^3]."""
+    message = nanomap.trajectory_t()
+    message.utime, message.position, message.velocity = utime, [x_m, 0.0, 1.0], [speed_m_s, 0.0, 0.0]
+    message.num_pieces = len(pieces)
+    message.piece_duration = [duration for duration, _ in pieces]
+    message.piece_jerk = [[0.0, jerk, 0.0] for _, jerk in pieces]
+    return message
+
+
+def decision(utime: int, x_m: float, reason: str = "flying", risk: float = 1e-5, epoch: int = 0) -> nanomap.decision_t:
+    """A metre or two ahead, with a verified brake, if it flies; else nothing to be flown. Of 10 candidates 3 are left
+    out and 1 is feasible."""
+    message = nanomap.decision_t()
+    message.utime, message.epoch, message.reason = utime, epoch, reason
+    message.has_goal, message.goal_sequence = True, 0
+    message.has_motion = message.has_brake = reason == "flying"
+    if message.has_motion:
+        message.trajectory = trajectory(utime, x_m, 2.0, [(0.2, 1.0), (0.8, 0.0)])
+        message.brake = trajectory(utime, x_m, 1.0, [(0.5, 1.0)])
+    message.risk, message.brake_risk = risk, risk / 10
+    message.num_candidates, message.num_evaluated, message.num_feasible = 10, 7, 1
+    message.num_statuses, message.vetoes = 9, [0, 0, 0, 2, 0, 0, 1, 0, 0]
+    message.vetoes_neighbours, message.vetoes_of_brakes = 3, 1
+    return message
+
+
+def goal(utime: int, x_m: float, sequence: int = 0) -> nanomap.goal_t:
+    message = nanomap.goal_t()
+    message.utime, message.sequence = utime, sequence
+    message.position, message.top_speed = [x_m, 1.0, 1.0], 4.0
+    return message
+
+
 def write(path: Path, messages: list[tuple[str, int, object]]) -> Path:
     """Each message with its channel and log time."""
     log = lcm.EventLog(str(path), "w", overwrite=True)
