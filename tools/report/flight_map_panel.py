@@ -24,8 +24,9 @@ SPEED_COLOURS = "viridis"
 
 def frame(flight: Flight) -> Frame:
     """All that was flown and decided, with its surroundings."""
-    decisions = _verified(flight)
-    curves = [_curve(motion) for d in decisions for motion in (d.trajectory, d.brake)]
+    decisions = _meant_to_be_flown(flight)
+    curves = [_curve(motion) for d in decisions
+              for motion in ([d.trajectory, d.brake] if d.has_brake else [d.trajectory])]
     return around(np.vstack([flight.track.positions[:, :2], *curves]), MARGIN_M, HEIGHT_TO_WIDTH)
 
 
@@ -61,8 +62,9 @@ def _at_intervals(decisions: list) -> list:
     return chosen
 
 
-def _verified(flight: Flight) -> list:
-    return _at_intervals([d for d in flight.drawn_decisions() if d.has_brake])
+def _meant_to_be_flown(flight: Flight) -> list:
+    """Without a brake too: the configuration may do without (stop_check = "paper")."""
+    return _at_intervals([d for d in flight.drawn_decisions() if d.has_brake or outcome(d) is Outcome.FLYING])
 
 
 def _curve(trajectory) -> np.ndarray:
@@ -71,10 +73,10 @@ def _curve(trajectory) -> np.ndarray:
 
 
 def _draw_decisions(axes: plt.Axes, flight: Flight) -> list[Line2D]:
-    decisions = _verified(flight)
+    decisions = _meant_to_be_flown(flight)
     axes.add_collection(LineCollection([_curve(d.trajectory) for d in decisions], colors=MOTION_COLOUR, linewidths=1.0,
                                        zorder=4))
-    brakes = [_curve(d.brake) for d in decisions]
+    brakes = [_curve(d.brake) for d in decisions if d.has_brake]
     axes.add_collection(LineCollection(brakes, colors=BRAKE_COLOUR, linewidths=1.8, zorder=5))
     ends = np.array([brake[-1] for brake in brakes]).reshape(-1, 2)
     axes.scatter(*ends.T, s=16, color=BRAKE_COLOUR, edgecolors="white", linewidths=0.5, zorder=5)

@@ -199,6 +199,15 @@ class MapFrame(FlightTest):
         lowest, highest = flight_map_panel.HEIGHT_TO_WIDTH
         self.assertTrue(lowest <= frame.height_to_width <= highest + 1e-12)
 
+    def test_holds_motions_without_a_brake(self):
+        log, _ = self.logs()
+        paper = decision(utime(FRAMES - 1), STEP_M * (FRAMES - 1))
+        paper.has_brake = False
+        frame = flight_map_panel.frame(gather_flight(log, write(
+            self.folder / "d.log", [("NANOMAP_DECISIONS", paper.utime, paper)]), Channels(), LIMITS))
+        from_start_to_motions_end = STEP_M * (FRAMES - 1) + 2
+        self.assertAlmostEqual(frame.low[0] + frame.high[0], from_start_to_motions_end)
+
     def test_grows_where_it_would_be_a_strip(self):
         for end, size in (([10, 0], [12, 6]), ([0, 10], [6, 12]), ([0, 0], [2, 2]), ([3, 4], [5, 6])):
             frame = around(np.array([[0, 0], end]), 1.0, (0.5, 2.0))
