@@ -1,5 +1,7 @@
 """A whole flight from above, in the estimator's world W: what was seen, flown and decided."""
 
+import math
+
 import matplotlib.pyplot as plt
 import numpy as np
 from flight import Flight
@@ -13,7 +15,9 @@ from motion import Motion
 from outcomes import Outcome, outcome
 from style import BRAKE_COLOUR, HEIGHT_BAND_M, MOTION_COLOUR
 
+# Decisions are drawn this often, or, on a long flight, at the multiple of it that draws no more than so many.
 DECISION_EVERY_S = 0.5
+MOST_DECISIONS = 60
 CURVE_STEP_M = 0.1
 CELLS_ACROSS = 550  # of the longer side: what a picture of this width can show
 MARGIN_M = 4.0
@@ -53,18 +57,26 @@ def _draw_seen(axes: plt.Axes, flight: Flight, shown: Frame) -> None:
                 cmap=SEEN_COLOURS, interpolation="nearest", zorder=1)
 
 
-def _at_intervals(decisions: list) -> list:
+def interval_s(flight: Flight) -> float:
+    """Between decisions that are drawn."""
+    drawn = flight.drawn_decisions()
+    duration_s = (drawn[-1].utime - drawn[0].utime) / US_PER_S
+    return DECISION_EVERY_S * max(1, math.ceil(duration_s / (MOST_DECISIONS * DECISION_EVERY_S)))
+
+
+def _at_intervals(flight: Flight, decisions: list) -> list:
     """The first, and each that comes an interval after the one before."""
+    interval_us = interval_s(flight) * US_PER_S
     chosen = []
     for decision in decisions:
-        if not chosen or decision.utime - chosen[-1].utime >= DECISION_EVERY_S * US_PER_S:
+        if not chosen or decision.utime - chosen[-1].utime >= interval_us:
             chosen.append(decision)
     return chosen
 
 
 def _meant_to_be_flown(flight: Flight) -> list:
     """Without a brake too: the configuration may do without (stop_check = "paper")."""
-    return _at_intervals([d for d in flight.drawn_decisions() if d.has_brake or outcome(d) is Outcome.FLYING])
+    return _at_intervals(flight, [d for d in flight.drawn_decisions() if d.has_brake or outcome(d) is Outcome.FLYING])
 
 
 def _curve(trajectory) -> np.ndarray:
@@ -77,13 +89,13 @@ def _draw_decisions(axes: plt.Axes, flight: Flight) -> list[Line2D]:
     axes.add_collection(LineCollection([_curve(d.trajectory) for d in decisions], colors=MOTION_COLOUR, linewidths=1.0,
                                        zorder=4))
     brakes = [_curve(d.brake) for d in decisions if d.has_brake]
-    axes.add_collection(LineCollection(brakes, colors=BRAKE_COLOUR, linewidths=1.8, zorder=5))
+    axes.add_collection(LineCollection(brakes, colors=BRAKE_COLOUR, linewidths=1.5, zorder=5))
     ends = np.array([brake[-1] for brake in brakes]).reshape(-1, 2)
-    axes.scatter(*ends.T, s=16, color=BRAKE_COLOUR, edgecolors="white", linewidths=0.5, zorder=5)
+    axes.scatter(*ends.T, s=14, color=BRAKE_COLOUR, edgecolors="white", linewidths=0.5, zorder=5)
     return [
         Line2D([], [], color="#8A8A8A", linestyle="", marker="s", markersize=6,
                label=f"measured, within {HEIGHT_BAND_M:g} m of the vehicle's height"),
-        Line2D([], [], color=MOTION_COLOUR, linewidth=1.2, label=f"motion chosen, every {DECISION_EVERY_S:g} s"),
+        Line2D([], [], color=MOTION_COLOUR, linewidth=1.2, label=f"motion chosen, every {interval_s(flight):g} s"),
         Line2D([], [], color=BRAKE_COLOUR, linewidth=1.8, marker="o", markersize=4,
                label="verified brake, to its standstill"),
     ]
@@ -108,7 +120,7 @@ def _draw_outcomes(axes: plt.Axes, flight: Flight) -> list[Line2D]:
     handles = []
     for kind in Outcome:
         look = kind.value
-        here = _at_intervals([d for d in flight.drawn_decisions() if outcome(d) is kind])
+        here = _at_intervals(flight, [d for d in flight.drawn_decisions() if outcome(d) is kind])
         if not look.marker or not here:
             continue
         places = np.array([flight.track.T_W_B(d.utime)[:2, 3] for d in here])

@@ -13,6 +13,7 @@ class Outcome(Enum):
     SLOWING = Look("slowing down", "#0072B2", "v")
     TURNING = Look("turning to the goal", "#CC79A7", "o")
     BLOCKED = Look("blocked", "#E69F00", "s")
+    MOVING_AWAY = Look("moving away", "#F0E442", "^")
     NOTHING_VERIFIED = Look("nothing verified", "#000000", "X")
     NO_GOAL = Look("no usable goal", "#9A9A9A", "d")
     NO_VIEW = Look("no view yet", "#C8C8C8", "*")
@@ -27,6 +28,7 @@ OUTCOMES = {
     "faster than the goal's top speed: slowing down": Outcome.SLOWING,
     "the goal is out of view: turning towards it": Outcome.TURNING,
     "blocked: looking around": Outcome.BLOCKED,
+    "too near to something: moving away from it": Outcome.MOVING_AWAY,
     "nothing is safe, not even stopping: keep to the last verified brake": Outcome.NOTHING_VERIFIED,
     "no goal yet: standing still": Outcome.NO_GOAL,
     "the goal is invalid: standing still": Outcome.NO_GOAL,

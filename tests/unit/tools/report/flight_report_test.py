@@ -77,7 +77,8 @@ class FlightTest(TemporaryFolderTest):
 class Outcomes(unittest.TestCase):
     def test_know_every_reason_that_the_planner_gives(self):
         words = re.findall(r'return "(..+)";', (ROOT / "core/decision.cc").read_text())
-        self.assertEqual(list(OUTCOMES), words)
+        self.assertGreater(len(words), 10)
+        self.assertLessEqual(set(words), set(OUTCOMES))  # which may know those of older logs too
 
     def test_look_different(self):
         for part in ("label", "colour"):
@@ -218,6 +219,13 @@ class MapFrame(FlightTest):
         frame = Frame(np.array([-1.0, -2.0]), np.array([3.0, 2.0]))
         for start, towards, tip in (([0, 0], [30, 10], [3, 1]), ([0, 0], [0, -9], [0, -2]), ([1, 1], [-9, 1], [-1, 1])):
             np.testing.assert_allclose(frame.way_out(np.array(start, float), np.array(towards, float)), tip)
+
+    def test_shows_fewer_decisions_of_a_long_flight(self):
+        for duration_s, interval_s in ((0, 0.5), (30, 0.5), (31, 1.0), (100, 2.0)):
+            messages = [("POSE_BODY", at, pose(at, 0.0)) for at in (0, 1_000_000 * duration_s + 1)]
+            made = [("NANOMAP_DECISIONS", at, decision(at, 0.0)) for at in (0, 1_000_000 * duration_s)]
+            log = write(self.folder / "long.log", [("CAMERA", 0, camera()), *messages, *made])
+            self.assertEqual(flight_map_panel.interval_s(gather_flight(log, log, Channels(), LIMITS)), interval_s)
 
     def test_shows_decisions_and_outcomes(self):
         _, axes = plt.subplots()
