@@ -90,15 +90,31 @@ CameraModel::CameraModel(CameraParameters parameters)
               .near_m = c.min_range_m,
               .far_m = c.max_range_m};
   ray_tangents_.reserve(pixelCount());
-  if (!c.distortion.isZero()) {
-    undistortOnce();
-    return;
-  }
-  for (int v = 0; v < height(); ++v) {
-    for (int u = 0; u < width(); ++u) {
-      ray_tangents_.emplace_back(static_cast<float>((u - c.cx_px) / c.fx_px),
-                                 static_cast<float>((v - c.cy_px) / c.fy_px));
+  if (c.distortion.isZero()) {
+    for (int v = 0; v < height(); ++v) {
+      for (int u = 0; u < width(); ++u) {
+        ray_tangents_.emplace_back(static_cast<float>((u - c.cx_px) / c.fx_px),
+                                   static_cast<float>((v - c.cy_px) / c.fy_px));
+      }
     }
+  } else {
+    undistortOnce();
+  }
+  ray_tiles_ = RayTiles({width(), height()}, ray_tangents_);
+  findRawRange();
+}
+
+void CameraModel::findRawRange() {
+  constexpr int kGreatestRaw = std::numeric_limits<std::uint16_t>::max();
+  const auto inRange = [this](int raw) { return classify(static_cast<std::uint16_t>(raw)) == DepthReading::kInRange; };
+  int least = 0;
+  while (least <= kGreatestRaw && !inRange(least)) ++least;
+  if (least > kGreatestRaw) return;  // none
+  int greatest = kGreatestRaw;
+  while (!inRange(greatest)) --greatest;
+  in_range_ = {static_cast<std::uint16_t>(least), static_cast<std::uint16_t>(greatest), {}};
+  for (const std::uint16_t value : parameters_.no_return_values) {
+    if (value > least && value < greatest) in_range_.excluded.push_back(value);
   }
 }
 

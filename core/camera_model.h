@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/geometry.h"
+#include "core/raw_range.h"
+#include "core/ray_tiles.h"
 
 namespace nanomap {
 
@@ -80,6 +82,12 @@ class CameraModel {
 
   [[nodiscard]] DepthReading classify(std::uint16_t raw) const;
 
+  /// The raw values that classify() finds to be in range.
+  [[nodiscard]] const RawRange& inRange() const { return in_range_; }
+
+  /// Metres per count, as depth() has it.
+  [[nodiscard]] float depthUnit_m() const { return depth_unit_m_; }
+
   /// Depth along the optical axis [m] of a raw value that is a return.
   [[nodiscard]] float depth(std::uint16_t raw) const { return static_cast<float>(raw) * depth_unit_m_; }
 
@@ -91,6 +99,9 @@ class CameraModel {
 
   /// Tangents x/z and y/z in C of the ray through the pixel with row-major index `pixel`.
   [[nodiscard]] const Eigen::Vector2f& rayTangents(std::size_t pixel) const { return ray_tangents_[pixel]; }
+
+  /// The tangents of all rays once more, in the order of the nearest-point index.
+  [[nodiscard]] const RayTiles& rayTiles() const { return ray_tiles_; }
 
   struct Pixel {
     int u = 0;
@@ -111,11 +122,14 @@ class CameraModel {
 
  private:
   void undistortOnce();
+  void findRawRange();
 
   CameraParameters parameters_;
   float depth_unit_m_;
   Frustum frustum_;
   std::vector<Eigen::Vector2f> ray_tangents_;  ///< row-major, one a pixel
+  RayTiles ray_tiles_;
+  RawRange in_range_;
   std::vector<std::int32_t> distorted_pixel_;  ///< cell -> image pixel; empty without distortion
 };
 

@@ -1,6 +1,7 @@
 #include "core/depth_tiles.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 namespace nanomap {
@@ -10,37 +11,47 @@ int tilesAlong(int pixels) { return (pixels + DepthTiles::kEdge_px - 1) / DepthT
 
 }  // namespace
 
-DepthTiles::DepthTiles(const DepthImage& image, const CameraModel& camera)
-    : columns_(tilesAlong(image.width_px)), rows_(tilesAlong(image.height_px)) {
+DepthTiles::DepthTiles(const CameraModel& camera)
+    : columns_(tilesAlong(camera.width())),
+      rows_(tilesAlong(camera.height())),
+      least_(tileAt(0, rows_), kNoDepth),
+      greatest_(tileAt(0, rows_), kNoDepth) {}
+
+void DepthTiles::assign(const DepthImage& image, const CameraModel& camera) {
   constexpr auto kEdge = static_cast<std::size_t>(kEdge_px);
   const auto width = static_cast<std::size_t>(image.width_px);
   const auto height = static_cast<std::size_t>(image.height_px);
   const std::span<const std::uint16_t> no_return = camera.parameters().no_return_values;
-  least_.reserve(tileAt(0, rows_));
-  greatest_.reserve(tileAt(0, rows_));
 
-  // Column by column over a row of tiles, in loops without a branch that the compiler turns into vector code.
-  std::vector<std::uint16_t> depths(width);
-  std::vector<std::uint16_t> least(width);
-  std::vector<std::uint16_t> greatest(width);
+  // Column by column over a row of tiles, a strip of columns at a time, in loops without a branch that the compiler
+  // turns into vector code.
+  constexpr std::size_t kStrip = 64;
+  using Strip = std::array<std::uint16_t, kStrip>;
+  std::size_t tile = 0;
   for (std::size_t top = 0; top < height; top += kEdge) {
-    std::fill(least.begin(), least.end(), kNoDepth);
-    std::fill(greatest.begin(), greatest.end(), std::uint16_t{0});
-    for (std::size_t v = top; v < std::min(top + kEdge, height); ++v) {
-      const auto row = std::span(image.pixels).subspan(v * width, width);
-      std::copy(row.begin(), row.end(), depths.begin());
-      for (const std::uint16_t value : no_return) {
-        for (std::size_t u = 0; u < width; ++u) depths[u] = row[u] == value ? kNoDepth : depths[u];
+    for (std::size_t left = 0; left < width; left += kStrip) {
+      const std::size_t columns = std::min(kStrip, width - left);
+      Strip least;
+      Strip greatest;
+      least.fill(kNoDepth);
+      greatest.fill(0);
+      for (std::size_t v = top; v < std::min(top + kEdge, height); ++v) {
+        Strip raw{};
+        std::copy_n(&image.pixels[v * width + left], columns, raw.begin());
+        Strip depths = raw;
+        for (const std::uint16_t value : no_return) {
+          for (std::size_t u = 0; u < kStrip; ++u) depths[u] = raw[u] == value ? kNoDepth : depths[u];
+        }
+        for (std::size_t u = 0; u < kStrip; ++u) {
+          least[u] = std::min(least[u], depths[u]);
+          greatest[u] = std::max(greatest[u], depths[u]);
+        }
       }
-      for (std::size_t u = 0; u < width; ++u) {
-        least[u] = std::min(least[u], depths[u]);
-        greatest[u] = std::max(greatest[u], depths[u]);
+      for (std::size_t first = 0; first < columns; first += kEdge, ++tile) {
+        const std::size_t count = std::min(kEdge, columns - first);
+        least_[tile] = std::ranges::min(std::span(least).subspan(first, count));
+        greatest_[tile] = std::ranges::max(std::span(greatest).subspan(first, count));
       }
-    }
-    for (std::size_t left = 0; left < width; left += kEdge) {
-      const std::size_t count = std::min(kEdge, width - left);
-      least_.push_back(std::ranges::min(std::span(least).subspan(left, count)));
-      greatest_.push_back(std::ranges::max(std::span(greatest).subspan(left, count)));
     }
   }
 }

@@ -11,14 +11,20 @@ namespace nanomap {
 
 /// The least and the greatest raw depth of each square tile of a depth image: enough to tell, for most tiles, that
 /// nothing in them is nearer or farther than a limit. A pixel without depth counts as the greatest raw value.
-/// Threads: immutable, any number of readers.
+/// Threads: any number of readers; assigning needs the tiles alone.
 class DepthTiles {
  public:
   static constexpr int kEdge_px = 8;  ///< tiles at the right and bottom border may be cut
   static constexpr std::uint16_t kNoDepth = 65535;
 
-  /// Allocates. @pre the image has the camera's size
-  DepthTiles(const DepthImage& image, const CameraModel& camera);
+  /// Of an image without any depth. Allocates; nothing else does.
+  explicit DepthTiles(const CameraModel& camera);
+
+  /// @pre the image has the camera's size. Allocates.
+  DepthTiles(const DepthImage& image, const CameraModel& camera) : DepthTiles(camera) { assign(image, camera); }
+
+  /// Bounds of another image. @pre it has the camera's size, and the camera the size of the first one
+  void assign(const DepthImage& image, const CameraModel& camera);
 
   [[nodiscard]] int columns() const { return columns_; }
   [[nodiscard]] int rows() const { return rows_; }

@@ -25,17 +25,23 @@ class FlannIndex final : public NearestPointIndex {
 
   [[nodiscard]] std::size_t size() const override { return points_C_.size(); }
 
-  [[nodiscard]] std::size_t nearest(const Vec3f& p_C, std::span<Neighbour> out) const override {
+  [[nodiscard]] std::size_t nearest(const Vec3f& p_C, std::span<Neighbour> out, float max_distance_m) const override {
     assert(!out.empty() && out.size() <= kMaxNeighbours);
-    if (!tree_) return 0;
+    const bool anything_within = max_distance_m >= 0.0F;
+    if (!tree_ || !anything_within || !p_C.allFinite()) return 0;
     flann::KNNSimpleResultSet<float> found(out.size());
     tree_->findNeighbors(found, p_C.data(), flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED, 0.0F));
     std::array<std::size_t, kMaxNeighbours> ids;
     std::array<float, kMaxNeighbours> distances_sq_m2;
     const std::size_t count = std::min(found.size(), out.size());
     found.copy(ids.data(), distances_sq_m2.data(), count);
-    for (std::size_t i = 0; i < count; ++i) out[i] = {points_C_[ids[i]], std::sqrt(distances_sq_m2[i])};
-    return count;
+    std::size_t within = 0;
+    for (; within < count; ++within) {
+      const float distance_m = std::sqrt(distances_sq_m2[within]);
+      if (distance_m > max_distance_m) break;
+      out[within] = {points_C_[ids[within]], distance_m};
+    }
+    return within;
   }
 
  private:

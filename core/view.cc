@@ -1,7 +1,6 @@
 #include "core/view.h"
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/flann_index.h"
@@ -22,15 +21,9 @@ std::string_view toString(ImageFault fault) {
   return "?";
 }
 
-View::View(DepthImage image, std::shared_ptr<const CameraModel> camera, std::unique_ptr<const NearestPointIndex> index)
-    : image_(std::move(image)), camera_(std::move(camera)), index_(std::move(index)), tiles_(image_, *camera_) {}
-
-namespace {
-
-/// Units are written as decimals and pass through single precision in places.
-constexpr double kUnitTolerance = 1e-6;
-
 std::optional<ImageFault> faultOf(const DepthImage& image, const CameraModel& camera) {
+  /// Units are written as decimals and pass through single precision in places.
+  constexpr double kUnitTolerance = 1e-6;
   if (image.width_px <= 0 || image.height_px <= 0) return ImageFault::kEmpty;
   if (image.pixels.size() != static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px)) {
     return ImageFault::kTruncated;
@@ -41,12 +34,41 @@ std::optional<ImageFault> faultOf(const DepthImage& image, const CameraModel& ca
   return std::nullopt;
 }
 
-}  // namespace
+View::View(std::shared_ptr<const CameraModel> camera, IndexKind kind)
+    : camera_(std::move(camera)), image_({camera_->width(), camera_->height()}), tiles_(*camera_) {
+  if (kind == IndexKind::kImage) image_index_.emplace(camera_, image_);
+}
 
-std::variant<ViewPtr, ImageFault> buildView(DepthImage image, std::shared_ptr<const CameraModel> camera) {
+View::View(const DepthImage& image, std::shared_ptr<const CameraModel> camera,
+           std::unique_ptr<const NearestPointIndex> index)
+    : stamp_(image.stamp),
+      sequence_(image.sequence),
+      camera_(std::move(camera)),
+      image_({camera_->width(), camera_->height()}),
+      tiles_(*camera_),
+      other_index_(std::move(index)) {
+  image_.assign(image.pixels);
+  tiles_.assign(image, *camera_);
+}
+
+void View::assign(const DepthImage& image) {
+  stamp_ = image.stamp;
+  sequence_ = image.sequence;
+  if (image_index_) {
+    image_index_->build(image.pixels);
+  } else {
+    image_.assign(image.pixels);
+    other_index_ = buildFlannIndex(image, *camera_);
+  }
+  tiles_.assign(image, *camera_);
+}
+
+std::variant<ViewPtr, ImageFault> buildView(const DepthImage& image, std::shared_ptr<const CameraModel> camera,
+                                            IndexKind kind) {
   if (const auto fault = faultOf(image, *camera)) return *fault;
-  auto index = buildFlannIndex(image, *camera);
-  return std::make_shared<const View>(std::move(image), std::move(camera), std::move(index));
+  const auto view = std::make_shared<View>(std::move(camera), kind);
+  view->assign(image);
+  return view;
 }
 
 }  // namespace nanomap

@@ -3,13 +3,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <variant>
 
 #include "core/camera_model.h"
 #include "core/depth_image.h"
 #include "core/depth_tiles.h"
+#include "core/image_index.h"
 #include "core/nearest_point_index.h"
+#include "core/tiled_image.h"
 
 namespace nanomap {
 
@@ -24,37 +27,53 @@ inline constexpr std::size_t kImageFaultCount = 4;
 
 [[nodiscard]] std::string_view toString(ImageFault fault);
 
-/// One depth frame with its camera model and nearest-point index, and the bounds of its tiles. Immutable, shared by
-/// every snapshot that holds it. Threads: any number of readers.
+/// What keeps `image` from being a view of `camera`; empty if nothing does.
+[[nodiscard]] std::optional<ImageFault> faultOf(const DepthImage& image, const CameraModel& camera);
+
+/// One depth frame with its camera model and nearest-point index, and the bounds of its tiles. Shared as `ViewPtr`,
+/// and then immutable: who builds a view finishes it first. Threads: any number of readers.
 class View {
  public:
-  /// @pre the image has the camera's size
-  View(DepthImage image, std::shared_ptr<const CameraModel> camera, std::unique_ptr<const NearestPointIndex> index);
+  /// Room for frames of `camera`; holds none before assign(). Allocates.
+  View(std::shared_ptr<const CameraModel> camera, IndexKind kind);
 
-  [[nodiscard]] Time stamp() const { return image_.stamp; }
-  [[nodiscard]] std::uint64_t sequence() const { return image_.sequence; }
-  [[nodiscard]] const DepthImage& image() const { return image_; }
+  /// The view of `image`, searched through an index that the caller made of it.
+  /// @pre faultOf(image, *camera) is empty
+  View(const DepthImage& image, std::shared_ptr<const CameraModel> camera,
+       std::unique_ptr<const NearestPointIndex> index);
+
+  View(const View&) = delete;
+  View& operator=(const View&) = delete;
+
+  /// Makes this the view of `image`, in place of the frame before. @pre faultOf(image, camera()) is empty
+  /// Allocates: no with IndexKind::kImage; FLANN's tree otherwise.
+  void assign(const DepthImage& image);
+
+  [[nodiscard]] Time stamp() const { return stamp_; }
+  [[nodiscard]] std::uint64_t sequence() const { return sequence_; }
   [[nodiscard]] const CameraModel& camera() const { return *camera_; }
-  [[nodiscard]] const NearestPointIndex& index() const { return *index_; }
+  [[nodiscard]] const NearestPointIndex& index() const { return image_index_ ? *image_index_ : *other_index_; }
   [[nodiscard]] const DepthTiles& tiles() const { return tiles_; }
 
   /// Raw value at column `u`, row `v` inside the image.
-  [[nodiscard]] std::uint16_t rawAt(int u, int v) const {
-    return image_
-        .pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image_.width_px) + static_cast<std::size_t>(u)];
-  }
+  [[nodiscard]] std::uint16_t rawAt(int u, int v) const { return image_.at(u, v); }
 
  private:
-  DepthImage image_;
+  Time stamp_{};
+  std::uint64_t sequence_ = 0;
   std::shared_ptr<const CameraModel> camera_;
-  std::unique_ptr<const NearestPointIndex> index_;
+  TiledImage image_;
   DepthTiles tiles_;
+  std::optional<ImageIndex> image_index_;  ///< of image_
+  std::unique_ptr<const NearestPointIndex> other_index_;
 };
 
 using ViewPtr = std::shared_ptr<const View>;
 
-/// Stage T2: a checked image with its index built, or the reason why not. The image must have the camera's size and
-/// unit. Allocates. Threads: a function of its arguments.
-[[nodiscard]] std::variant<ViewPtr, ImageFault> buildView(DepthImage image, std::shared_ptr<const CameraModel> camera);
+/// A checked image with its index built, or the reason why not. The image must have the camera's size and unit.
+/// Allocates; ViewPool builds in storage that it has. Threads: a function of its arguments.
+[[nodiscard]] std::variant<ViewPtr, ImageFault> buildView(const DepthImage& image,
+                                                          std::shared_ptr<const CameraModel> camera,
+                                                          IndexKind kind = IndexKind::kImage);
 
 }  // namespace nanomap

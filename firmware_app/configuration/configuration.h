@@ -5,6 +5,7 @@
 
 #include "core/camera_model.h"
 #include "core/chain.h"
+#include "core/nearest_point_index.h"
 #include "drivers/lcm/body_convention.h"
 #include "planner/planner_parameters.h"
 
@@ -28,6 +29,7 @@ struct LcmParameters {
 struct Configuration {
   std::optional<CameraParameters> camera;  ///< empty: as the camera's own message says
   ChainParameters chain;                   ///< [history] and [drift]
+  IndexKind index = IndexKind::kImage;     ///< in [query]
   PlannerParameters planner;               ///< [vehicle], [query] and all sections from [planner] on, up to [lcm]
   LcmParameters lcm;
 };

@@ -70,7 +70,12 @@ Section driftSection() {
 Section querySection() {
   return {"query",
           "How the history is asked for the nearest obstacles.",
-          {integerKey(
+          {choiceKey<IndexKind>(
+               "index",
+               "What finds the nearest points of a depth frame: image, which knows them to be an image, or FLANN's\n"
+               "k-d tree. Distances are the same, to the last bit; flann is slower by far.",
+               {{"image", IndexKind::kImage}, {"flann", IndexKind::kFlann}}, [](auto& c) -> auto& { return c.index; }),
+           integerKey(
                "k", "Nearest measured points reported with each answer.", {1, kMaxNeighbours},
                [](auto& c) -> auto& { return c.planner.risk.query.k; }),
            choiceKey<OcclusionTest>(

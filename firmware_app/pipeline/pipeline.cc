@@ -16,7 +16,10 @@ void count(Counters& counters, Enum value) {
 }  // namespace
 
 Pipeline::Pipeline(const Configuration& configuration)
-    : intake_(configuration.lcm), view_builder_(configuration.camera), chain_(configuration.chain) {}
+    : intake_(configuration.lcm),
+      view_builder_(configuration.camera, configuration.index,
+                    configuration.chain.history_views + configuration.chain.waiting_views),
+      chain_(configuration.chain) {}
 
 Pipeline::Outcome Pipeline::feed(InputKind kind, Bytes message) {
   count(counters_.messages, kind);
@@ -57,9 +60,9 @@ Pipeline::Outcome Pipeline::take(const CameraInput& camera) {
   return {.camera = verdict};
 }
 
-Pipeline::Outcome Pipeline::take(DepthInput depth) {
+Pipeline::Outcome Pipeline::take(const DepthInput& depth) {
   const auto start = std::chrono::steady_clock::now();
-  auto built = view_builder_.build(std::move(depth));
+  auto built = view_builder_.build(depth);
   if (const auto* fault = std::get_if<CameraFault>(&built)) {
     count(counters_.camera_faults, *fault);
     return {};

@@ -56,7 +56,7 @@ class Pipeline {
   Outcome take(const PoseInput& input);
   Outcome take(const Correction& correction);
   Outcome take(const CameraInput& camera);
-  Outcome take(DepthInput depth);
+  Outcome take(const DepthInput& depth);
   Outcome take(const Goal& goal);
 
   MessageIntake intake_;

@@ -33,8 +33,14 @@ std::string_view toString(CameraFault fault) {
   return "?";
 }
 
-ViewBuilder::ViewBuilder(const std::optional<CameraParameters>& configured) : configured_(configured.has_value()) {
-  if (configured) camera_ = std::make_shared<const CameraModel>(*configured);
+ViewBuilder::ViewBuilder(const std::optional<CameraParameters>& configured, IndexKind index, std::size_t reserved_views)
+    : index_(index), reserved_views_(reserved_views), configured_(configured.has_value()) {
+  if (configured) use(*configured);
+}
+
+void ViewBuilder::use(const CameraParameters& camera) {
+  camera_ = std::make_shared<const CameraModel>(camera);
+  pool_.emplace(camera_, index_, reserved_views_);
 }
 
 CameraVerdict ViewBuilder::setCamera(const CameraInput& input) {
@@ -43,7 +49,7 @@ CameraVerdict ViewBuilder::setCamera(const CameraInput& input) {
   if (camera_ && input.parameters == as_received_) return CameraVerdict::kUnchanged;
   try {
     const CameraVerdict verdict = camera_ ? CameraVerdict::kChanged : CameraVerdict::kFirst;
-    camera_ = std::make_shared<const CameraModel>(input.parameters);
+    use(input.parameters);
     as_received_ = input.parameters;
     name_ = input.name;
     return verdict;
@@ -53,11 +59,11 @@ CameraVerdict ViewBuilder::setCamera(const CameraInput& input) {
   }
 }
 
-std::variant<ViewPtr, ImageFault, CameraFault> ViewBuilder::build(DepthInput input) const {
+std::variant<ViewPtr, ImageFault, CameraFault> ViewBuilder::build(const DepthInput& input) {
   if (!camera_) return CameraFault::kNoCamera;
   const bool both_named = !input.camera.empty() && !name_.empty();
   if (both_named && input.camera != name_) return CameraFault::kOtherCamera;
-  auto built = buildView(std::move(input.image), camera_);
+  auto built = pool_->build(input.image);
   if (const auto* fault = std::get_if<ImageFault>(&built)) return *fault;
   return std::get<ViewPtr>(std::move(built));
 }

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/view.h"
+#include "core/view_pool.h"
 #include "firmware_app/pipeline/message_intake.h"
 
 namespace nanomap {
@@ -40,12 +41,15 @@ inline constexpr std::size_t kCameraFaultCount = 2;
 class ViewBuilder {
  public:
   /// @param configured  empty: the camera's messages say what it is
+  /// @param reserved_views  how many views to have storage for as soon as the camera is known
   /// @throws std::invalid_argument if the configured camera cannot be
-  explicit ViewBuilder(const std::optional<CameraParameters>& configured);
+  explicit ViewBuilder(const std::optional<CameraParameters>& configured, IndexKind index = IndexKind::kImage,
+                       std::size_t reserved_views = 0);
 
   [[nodiscard]] CameraVerdict setCamera(const CameraInput& input);
 
-  [[nodiscard]] std::variant<ViewPtr, ImageFault, CameraFault> build(DepthInput input) const;
+  /// Allocates only if more views are in use than there is storage for.
+  [[nodiscard]] std::variant<ViewPtr, ImageFault, CameraFault> build(const DepthInput& input);
 
   /// Null until it is known.
   [[nodiscard]] const std::shared_ptr<const CameraModel>& camera() const { return camera_; }
@@ -54,7 +58,12 @@ class ViewBuilder {
   [[nodiscard]] const std::string& lastCameraFault() const { return last_camera_fault_; }
 
  private:
+  void use(const CameraParameters& camera);
+
+  IndexKind index_;
+  std::size_t reserved_views_;
   std::shared_ptr<const CameraModel> camera_;
+  std::optional<ViewPool> pool_;  ///< of camera_
   bool configured_ = false;
   std::string name_;              ///< of the camera in use; empty if configured, or unnamed
   CameraParameters as_received_;  ///< what camera_ was made from

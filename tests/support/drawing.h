@@ -40,8 +40,9 @@ inline DepthImage randomImage(const CameraModel& camera, std::mt19937& random, s
 }
 
 /// @pre the image fits the camera
-inline ViewPtr viewOf(DepthImage image, std::shared_ptr<const CameraModel> camera) {
-  return std::get<ViewPtr>(buildView(std::move(image), std::move(camera)));
+inline ViewPtr viewOf(const DepthImage& image, std::shared_ptr<const CameraModel> camera,
+                      IndexKind kind = IndexKind::kImage) {
+  return std::get<ViewPtr>(buildView(image, std::move(camera), kind));
 }
 
 }  // namespace nanomap::test

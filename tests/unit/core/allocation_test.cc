@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <random>
+#include <string>
+#include <vector>
+
 #include "core/chain.h"
 #include "core/query.h"
+#include "core/view_pool.h"
 #include "tests/support/allocations.h"
 #include "tests/support/drawing.h"
 
@@ -10,8 +15,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
+class AllocationIn : public testing::TestWithParam<IndexKind> {};
+
 /// FLANN allocates three vectors a search, whatever the query; nothing of ours allocates.
-TEST(Allocation, AQueryAllocatesOnlyInsideFlann) {
+TEST_P(AllocationIn, AQueryAllocatesOnlyInsideFlann) {
   const auto camera = test::model(test::smallCamera());
   ChainParameters parameters;
   parameters.history_views = 40;
@@ -21,7 +28,7 @@ TEST(Allocation, AQueryAllocatesOnlyInsideFlann) {
     pose.stamp = Time(milliseconds(i * 30));
     pose.T_W_B.rotation = Eigen::AngleAxisd(0.05 * i, Vec3::UnitZ());
     (void)chain.addPose(pose);
-    (void)chain.addView(test::viewOf(test::flatImage(*camera, 5000, pose.stamp), camera));
+    (void)chain.addView(test::viewOf(test::flatImage(*camera, 5000, pose.stamp), camera, GetParam()));
   }
   const ChainSnapshot snapshot = chain.snapshot();
   ASSERT_EQ(snapshot.views.size(), 40U);
@@ -30,7 +37,7 @@ TEST(Allocation, AQueryAllocatesOnlyInsideFlann) {
   std::size_t before = test::allocationCount();
   (void)snapshot.views[0].view->index().nearest(Vec3f(0.0F, 0.0F, 3.0F), found);
   const std::size_t allocations_in_flann = test::allocationCount() - before;
-  EXPECT_LE(allocations_in_flann, 3U);
+  EXPECT_LE(allocations_in_flann, GetParam() == IndexKind::kFlann ? 3U : 0U);
 
   for (const Vec3& p_B : {Vec3(3.0, 0.0, 0.0), Vec3(0.0, -3.0, 0.0), Vec3(0.0, 0.0, 9.0), Vec3(30.0, 0.0, 0.0)}) {
     for (const OcclusionTest occlusion : {OcclusionTest::kMean, OcclusionTest::kFootprint}) {
@@ -46,6 +53,56 @@ TEST(Allocation, AQueryAllocatesOnlyInsideFlann) {
   before = test::allocationCount();
   queryBatch(snapshot, points_B, {}, replies);
   EXPECT_EQ(test::allocationCount() - before, points_B.size() * allocations_in_flann);
+}
+
+INSTANTIATE_TEST_SUITE_P(Index, AllocationIn, testing::Values(IndexKind::kImage, IndexKind::kFlann));
+
+CameraParameters paperSizedCamera() {
+  CameraParameters camera = test::smallCamera(320, 240);
+  camera.max_range_m = 20.0;
+  return camera;
+}
+
+/// Images over which searches differ: nothing, one depth, two boxes in every tile.
+std::vector<DepthImage> images(const CameraModel& camera) {
+  std::mt19937 random(7);
+  return {test::flatImage(camera, 0), test::flatImage(camera, 5000),
+          test::randomImage(camera, random, 300, 19000, 0.3)};
+}
+
+TEST(Allocation, BuildingInAReusedSlotAndSearchingItAllocateNothing) {
+  const auto camera = test::model(paperSizedCamera());
+  const std::vector<DepthImage> frames = images(*camera);
+  ViewPool pool(camera, IndexKind::kImage, 2);
+  std::array<Neighbour, kMaxNeighbours> found;
+  const std::size_t before = test::allocationCount();
+  for (int i = 0; i < 20; ++i) {
+    for (const DepthImage& frame : frames) {
+      const ViewPtr view = std::get<ViewPtr>(pool.build(frame));
+      for (const float max_distance_m : {0.5F, NearestPointIndex::kAnyDistance}) {
+        for (const std::size_t k : {1U, 10U, 16U}) {
+          (void)view->index().nearest(Vec3f(0.3F, -0.2F, 4.0F), std::span(found).first(k), max_distance_m);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(test::allocationCount(), before);
+}
+
+/// Everything that a history holds: pixels, index, tiles' bounds, the pool's own.
+TEST(Allocation, AHistoryOf150ViewsTakesAtMost45Megabytes) {
+  constexpr std::size_t kViews = 150;
+  const auto camera = test::model(paperSizedCamera());
+  const std::vector<DepthImage> frames = images(*camera);
+  std::vector<ViewPtr> history;
+  history.reserve(kViews);
+  const std::size_t before = test::allocatedBytes();
+  ViewPool pool(camera, IndexKind::kImage, kViews);
+  for (std::size_t i = 0; i < kViews; ++i) history.push_back(std::get<ViewPtr>(pool.build(frames[i % frames.size()])));
+  const std::size_t bytes = test::allocatedBytes() - before;
+  EXPECT_EQ(pool.capacity(), kViews);
+  EXPECT_LE(bytes, 45'000'000U);
+  RecordProperty("bytes", std::to_string(bytes));
 }
 
 TEST(Allocation, PosesAndSnapshotsIntoUsedStorageAllocateNothing) {

@@ -2,37 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 #include <vector>
 
 #include "tests/support/drawing.h"
+#include "tests/support/nearest_oracle.h"
 
 namespace nanomap {
 namespace {
 
 constexpr unsigned kSeed = 7;
 
-/// Distances to every in-range point, ascending, in the same float arithmetic.
-std::vector<float> bruteForce(const DepthImage& image, const CameraModel& camera, const Vec3f& p_C) {
-  std::vector<float> distances_m;
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    if (camera.classify(image.pixels[i]) != DepthReading::kInRange) continue;
-    const Vec3f point_C = camera.deproject(i, image.pixels[i]);
-    float sum = 0.0F;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float difference = p_C[axis] - point_C[axis];
-      sum += difference * difference;
-    }
-    distances_m.push_back(std::sqrt(sum));
-  }
-  std::sort(distances_m.begin(), distances_m.end());
-  return distances_m;
-}
-
 void expectExact(const DepthImage& image, const CameraModel& camera, const Vec3f& p_C, std::size_t k) {
   const auto index = buildFlannIndex(image, camera);
-  const std::vector<float> expected_m = bruteForce(image, camera, p_C);
+  const std::vector<float> expected_m = test::bruteForce(test::pointsInRange(image, camera), p_C);
   std::vector<Neighbour> found(k);
   const std::size_t count = index->nearest(p_C, found);
   ASSERT_EQ(count, std::min(k, expected_m.size()));
@@ -51,9 +34,10 @@ TEST_P(FlannIndex, EqualsBruteForce) {
   for (const double no_return_share : {0.0, 0.3, 0.99}) {
     const DepthImage image = test::randomImage(camera, random, 300, 9900, no_return_share);
     const auto index = buildFlannIndex(image, camera);
+    const std::vector<Vec3f> points_C = test::pointsInRange(image, camera);
     for (int i = 0; i < 100; ++i) {
       const Vec3f p_C(coordinate(random), coordinate(random), coordinate(random));
-      const std::vector<float> expected_m = bruteForce(image, camera, p_C);
+      const std::vector<float> expected_m = test::bruteForce(points_C, p_C);
       std::vector<Neighbour> found(GetParam());
       const std::size_t count = index->nearest(p_C, found);
       ASSERT_EQ(count, std::min(GetParam(), expected_m.size()));

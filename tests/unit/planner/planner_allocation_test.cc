@@ -10,7 +10,8 @@ namespace {
 /// Nearest points from a list of one: allocates nothing, as FLANN does.
 class OnePoint final : public NearestPointIndex {
  public:
-  [[nodiscard]] std::size_t nearest(const Vec3f& p_C, std::span<Neighbour> out) const override {
+  [[nodiscard]] std::size_t nearest(const Vec3f& p_C, std::span<Neighbour> out,
+                                    float /*max_distance_m*/) const override {
     const Vec3f point_C(0.5F, 0.0F, 6.0F);
     out[0] = {point_C, (point_C - p_C).norm()};
     return 1;

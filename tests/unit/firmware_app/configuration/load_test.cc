@@ -42,6 +42,7 @@ TEST(Load, EmptyFileGivesCoresDefaults) {
   EXPECT_EQ(configuration.chain.drift.law, DriftModel{}.law);
   EXPECT_EQ(configuration.chain.drift.use_increments, DriftModel{}.use_increments);
   EXPECT_EQ(configuration.planner.risk.query.k, QueryOptions{}.k);
+  EXPECT_EQ(configuration.index, IndexKind::kImage);
   EXPECT_EQ(configuration.planner.risk.query.occlusion, QueryOptions{}.occlusion);
   EXPECT_EQ(configuration.planner.risk.query.open_window_px, QueryOptions{}.open_window_px);
   EXPECT_EQ(configuration.planner.risk.query.open_range_fraction, QueryOptions{}.open_range_fraction);
@@ -141,8 +142,8 @@ TEST(Load, UnknownKeySuggestsTheOneMeant) {
 }
 
 TEST(Load, UnknownKeyFarFromAllListsItsSection) {
-  EXPECT_THAT(refusal("[query]\nzzzzzzzz = 3\n"),
-              AllOf(HasSubstr("drone.toml:2: unknown key 'query.zzzzzzzz'"), HasSubstr("[query] has k, occlusion")));
+  EXPECT_THAT(refusal("[query]\nzzzzzzzz = 3\n"), AllOf(HasSubstr("drone.toml:2: unknown key 'query.zzzzzzzz'"),
+                                                        HasSubstr("[query] has index, k, occlusion")));
 }
 
 TEST(Load, KeyInAMisspeltSectionSuggestsTheSection) {
@@ -197,6 +198,7 @@ TEST(Load, OverrideWinsOverTheFile) {
 
 TEST(Load, OverrideReplacesAWrongValueOfTheFile) {
   EXPECT_EQ(parsed("[query]\nk = 0\n", {"query.k=4"}).planner.risk.query.k, 4);
+  EXPECT_EQ(parsed("[query]\n", {"query.index=flann"}).index, IndexKind::kFlann);
 }
 
 TEST(Load, OverrideNeedsNoQuotes) {

@@ -16,7 +16,7 @@ DepthInput frame(const std::string& camera_name = "") {
 }
 
 TEST(ViewBuilder, WithoutACameraNothingIsBuilt) {
-  const ViewBuilder builder{std::nullopt};
+  ViewBuilder builder{std::nullopt};
   EXPECT_EQ(std::get<CameraFault>(builder.build(frame())), CameraFault::kNoCamera);
 }
 
@@ -68,7 +68,7 @@ TEST(ViewBuilder, InvalidCameraSaysWhyAndKeepsTheOneBefore) {
 }
 
 TEST(ViewBuilder, ImageThatDoesNotFitIsAFault) {
-  const ViewBuilder builder(smallCamera());
+  ViewBuilder builder(smallCamera());
   DepthInput input = frame();
   input.image.pixels.pop_back();
   EXPECT_EQ(std::get<ImageFault>(builder.build(input)), ImageFault::kTruncated);
