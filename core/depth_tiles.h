@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -9,9 +10,9 @@
 
 namespace nanomap {
 
-/// The least and the greatest raw depth of each square tile of a depth image: enough to tell, for most tiles, that
-/// nothing in them is nearer or farther than a limit. A pixel without depth counts as the greatest raw value.
-/// Threads: any number of readers; assigning needs the tiles alone.
+/// The least and the greatest raw depth of each square tile of a depth image, and which of its pixels carry none:
+/// enough to tell, for most tiles, that nothing in them is nearer or farther than a limit. Threads: any number of
+/// readers; assigning needs the tiles alone.
 class DepthTiles {
  public:
   static constexpr int kEdge_px = 8;  ///< tiles at the right and bottom border may be cut
@@ -31,8 +32,13 @@ class DepthTiles {
 
   /// Row-major, `columns() * rows()` values. A tile without any depth holds kNoDepth.
   [[nodiscard]] const std::vector<std::uint16_t>& least() const { return least_; }
-  /// The same. A tile with a pixel without depth holds kNoDepth.
+  /// The same. A tile without any depth holds 0.
   [[nodiscard]] const std::vector<std::uint16_t>& greatest() const { return greatest_; }
+
+  /// The pixels of a tile that carry no depth: a byte for each column, a bit for each row.
+  using Gaps = std::array<std::uint8_t, kEdge_px>;
+  /// The same order as above.
+  [[nodiscard]] const std::vector<Gaps>& gaps() const { return gaps_; }
 
   [[nodiscard]] std::size_t tileAt(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
@@ -43,6 +49,7 @@ class DepthTiles {
   int rows_;
   std::vector<std::uint16_t> least_;
   std::vector<std::uint16_t> greatest_;
+  std::vector<Gaps> gaps_;
 };
 
 }  // namespace nanomap

@@ -20,7 +20,8 @@ constexpr double kLargest = 1e6;
 constexpr double kRoundingUp = 1.0 + 0x1p-20;
 
 /// Read in the lanes without a view.
-constexpr std::uint16_t kNoTile = DepthTiles::kNoDepth;
+constexpr std::uint16_t kNoGreatest = 0;
+constexpr DepthTiles::Gaps kNoGaps{};
 
 bool isWithin(const auto& matrix, double limit) { return (matrix.array().abs() <= limit).all(); }
 
@@ -67,13 +68,16 @@ void setLane(ViewLanes& lanes, std::size_t lane, const SnapshotView& view) {
   lanes.counts_per_m[lane] = rounded(1.0 / (static_cast<double>(camera.depth(1)) * kRoundingUp));
   lanes.tile_columns[lane] = view.view->tiles().columns();
   lanes.greatest[lane] = view.view->tiles().greatest().data();
+  lanes.gaps[lane] = view.view->tiles().gaps().data();
+  lanes.view[lane] = view.view.get();
   if (camera.parameters().distortion.isZero()) lanes.tiled |= 1U << lane;
 }
 
 ViewLanes withoutViews() {
   ViewLanes lanes{};
   lanes.near_m.fill(std::numeric_limits<float>::infinity());
-  lanes.greatest.fill(&kNoTile);
+  lanes.greatest.fill(&kNoGreatest);
+  lanes.gaps.fill(&kNoGaps);
   return lanes;
 }
 
@@ -95,10 +99,9 @@ void ViewFilter::assign(std::span<const SnapshotView> views) {
   }
 }
 
-ViewFilter::Walk::Walk(const ViewFilter& filter, std::span<const SnapshotView> views, const UncertainPoint& x_B,
-                       std::uint32_t first)
-    : views_(views), first_(first) {
-  assert(filter.empty() || filter.lanes_.size() == blocksFor(views.size()));
+ViewFilter::Walk::Walk(const ViewFilter& filter, std::size_t view_count, const UncertainPoint& x_B, std::uint32_t first)
+    : view_count_(static_cast<std::uint32_t>(view_count)), first_(first) {
+  assert(filter.empty() || filter.lanes_.size() == blocksFor(view_count));
   if (filter.empty() || !isWithinReason(x_B)) return;
   lanes_ = filter.lanes_;
   const Mat3& s = x_B.covariance_m2;
@@ -117,7 +120,7 @@ ViewFilter::Walk::Walk(const ViewFilter& filter, std::span<const SnapshotView> v
 }
 
 std::optional<std::uint32_t> ViewFilter::Walk::next() {
-  if (lanes_.empty()) return first_ < views_.size() ? std::optional(first_++) : std::nullopt;
+  if (lanes_.empty()) return first_ < view_count_ ? std::optional(first_++) : std::nullopt;
   for (;;) {
     while (probed_.left == 0) {
       block_ += scanViews(lanes_.subspan(block_), probe_, probed_);
@@ -127,15 +130,18 @@ std::optional<std::uint32_t> ViewFilter::Walk::next() {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(probed_.left));
     probed_.left &= probed_.left - 1;
     const auto view_index = static_cast<std::uint32_t>((block_ - 1) * kViewLanes) + lane;
-    if (view_index >= first_ && !isOccluded(view_index, lane)) return view_index;
+    if (view_index >= first_ && !isOccluded(lanes_[block_ - 1], lane)) return view_index;
   }
 }
 
 /// Is the mean certainly not nearer than the depth that its pixel carries?
-bool ViewFilter::Walk::isOccluded(std::uint32_t view_index, std::uint32_t lane) const {
-  if ((probed_.in_cell >> lane & 1U) == 0) return false;
-  const View& view = *views_[view_index].view;
-  const CameraModel::Pixel pixel = view.camera().pixelOfCell({probed_.column[lane], probed_.row[lane]});
+bool ViewFilter::Walk::isOccluded(const ViewLanes& lanes, std::uint32_t lane) const {
+  const View& view = *lanes.view[lane];
+  const CameraModel::Pixel cell{probed_.column[lane], probed_.row[lane]};
+  if ((probed_.with_depth >> lane & 1U) != 0) return probed_.raw[lane] >= view.rawAt(cell.u, cell.v);
+  const bool distorted = (lanes.tiled >> lane & 1U) == 0;
+  if (!distorted || (probed_.in_cell >> lane & 1U) == 0) return false;
+  const CameraModel::Pixel pixel = view.camera().pixelOfCell(cell);
   const std::uint16_t raw = view.rawAt(pixel.u, pixel.v);
   return probed_.raw[lane] >= raw && view.camera().classify(raw) != DepthReading::kNone;
 }

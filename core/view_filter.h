@@ -25,25 +25,27 @@ namespace nanomap {
 /// Threads: any number of readers. Allocates only when it holds more views than ever before.
 class ViewFilter {
  public:
-  /// Views beyond all reason (no rotation, not finite, or 1000 km away) make an empty filter.
+  /// Views beyond all reason (no rotation, not finite, or 1000 km away) make an empty filter. Borrows what
+  /// `views` point to.
   void assign(std::span<const SnapshotView> views);
 
   [[nodiscard]] bool empty() const { return lanes_.empty(); }
 
-  /// The views that may answer `x_B`, in order. Borrows the filter and the views that it was assigned.
+  /// The views that may answer `x_B`, in order. Borrows the filter, which borrows the views.
   class Walk {
    public:
-    /// @param first  the first view of interest
-    Walk(const ViewFilter& filter, std::span<const SnapshotView> views, const UncertainPoint& x_B, std::uint32_t first);
+    /// @param view_count  as many as the filter was assigned; if it is empty, all of them are walked
+    /// @param first       the first view of interest
+    Walk(const ViewFilter& filter, std::size_t view_count, const UncertainPoint& x_B, std::uint32_t first);
 
     /// The next view; empty behind the last.
     [[nodiscard]] std::optional<std::uint32_t> next();
 
    private:
-    [[nodiscard]] bool isOccluded(std::uint32_t view_index, std::uint32_t lane) const;
+    [[nodiscard]] bool isOccluded(const ViewLanes& lanes, std::uint32_t lane) const;
 
     std::span<const ViewLanes> lanes_;  ///< none: nothing is ruled out
-    std::span<const SnapshotView> views_;
+    std::uint32_t view_count_;
     std::uint32_t first_;    ///< views before it are of no interest
     std::size_t block_ = 0;  ///< the block behind that of `probed_`
     PointProbe probe_;

@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/depth_tiles.h"
+#include "core/view.h"
+
 namespace nanomap {
 
 inline constexpr std::size_t kViewLanes = 16;  ///< as many floats as the widest vector unit holds
@@ -22,8 +25,10 @@ struct alignas(64) ViewLanes {
   Floats last_column, last_row;
   Floats counts_per_m;  ///< raw depth
   std::array<std::int32_t, kViewLanes> tile_columns;
-  std::array<const std::uint16_t*, kViewLanes> greatest;  ///< of DepthTiles
-  std::uint32_t tiled = 0;                                ///< bits of the lanes whose cells are pixels: no distortion
+  std::array<const std::uint16_t*, kViewLanes> greatest;  ///< of DepthTiles, as the gaps
+  std::array<const DepthTiles::Gaps*, kViewLanes> gaps;
+  std::array<const View*, kViewLanes> view;
+  std::uint32_t tiled = 0;  ///< bits of the lanes whose cells are pixels: no distortion
 };
 
 /// An uncertain point as the filter takes it: rounded, with what rounding can do to it.
@@ -36,10 +41,12 @@ struct PointProbe {
 
 /// Where the mean falls in the views that the filter left.
 struct ProbedLanes {
-  std::uint32_t left = 0;     ///< bits of the lanes that may answer
-  std::uint32_t in_cell = 0;  ///< bits of the lanes whose cell is certain
+  std::uint32_t left = 0;        ///< bits of the lanes that may answer
+  std::uint32_t in_cell = 0;     ///< bits of the lanes whose cell is certain
+  std::uint32_t with_depth = 0;  ///< bits of the lanes of which it is certain that the cell is a pixel with depth
   alignas(64) std::array<std::int32_t, kViewLanes> column;
   alignas(64) std::array<std::int32_t, kViewLanes> row;
+  alignas(64) std::array<std::int32_t, kViewLanes> tile;
   alignas(64) std::array<std::int32_t, kViewLanes> raw;  ///< the mean is certainly not nearer than this raw depth
 };
 

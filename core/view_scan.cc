@@ -56,6 +56,12 @@ class VectorProbe {
     const FloatVec in_sides = hn::Min(hn::Min(from_left, from_right), hn::Min(from_top, from_bottom));
     if (hn::AllFalse(d, hn::Ge(hn::Min(in_range, in_sides), zero))) return;
 
+    // Occlusion first: it rules out most and costs least.
+    const std::uint32_t inside = bits(hn::Ge(hn::Min(in_range, in_sides), zero));
+    findCells(z, from_left, from_top, inside, out);
+    const std::uint32_t visible = inside & ~behindTiles(out);
+    if (visible == 0) return;
+
     const FloatVec half_x = leastHalfSize(0);
     const FloatVec half_y = leastHalfSize(1);
     const FloatVec half_z = leastHalfSize(2);
@@ -64,41 +70,59 @@ class VectorProbe {
                 hn::And(hn::Ge(from_right, support(half_x, half_z, views_.tan_right)),
                         hn::And(hn::Ge(from_top, support(half_y, half_z, views_.tan_top)),
                                 hn::Ge(from_bottom, support(half_y, half_z, views_.tan_bottom)))));
-    const std::uint32_t left = bits(contained);
-    if (left == 0) return;
-
-    // Cells: the least and the greatest that the mean can fall in.
-    const Int di;
-    const Mask deep = hn::And(contained, hn::Ge(z, hn::Set(d, kLeastDepthInSlacks * probe_.slack_m)));
-    const FloatVec z_or_one = hn::IfThenElse(deep, z, hn::Set(d, 1.0F));
-    const FloatVec columns_per_m = hn::Div(load(views_.cells_per_tan_x), z_or_one);
-    const FloatVec rows_per_m = hn::Div(load(views_.cells_per_tan_y), z_or_one);
-    const FloatVec last_column = load(views_.last_column);
-    const FloatVec last_row = load(views_.last_row);
-    const IntVec column = toCell(deep, leastCell(from_left, columns_per_m, last_column), last_column);
-    const IntVec row = toCell(deep, leastCell(from_top, rows_per_m, last_row), last_row);
-    const IntVec max_column = toCell(deep, greatestCell(from_left, columns_per_m, last_column), last_column);
-    const IntVec max_row = toCell(deep, greatestCell(from_top, rows_per_m, last_row), last_row);
-    hn::Store(column, di, out.column.data() + first_);
-    hn::Store(row, di, out.row.data() + first_);
-    const auto one_cell = hn::And(hn::Eq(column, max_column), hn::Eq(row, max_row));
-    out.in_cell |= bits(hn::And(deep, hn::RebindMask(d, one_cell))) << first_;
-
-    const FloatVec raw = hn::Mul(hn::Sub(z, slack), load(views_.counts_per_m));
-    hn::Store(hn::ConvertTo(di, hn::Min(hn::Max(raw, zero), hn::Set(d, kGreatestCertainRaw))), di,
-              out.raw.data() + first_);
-
-    const IntVec tile_column = hn::ShiftRight<kTileShift>(column);
-    const IntVec tile_row = hn::ShiftRight<kTileShift>(row);
-    const auto one_tile = hn::And(hn::Eq(tile_column, hn::ShiftRight<kTileShift>(max_column)),
-                                  hn::Eq(tile_row, hn::ShiftRight<kTileShift>(max_row)));
-    const std::uint32_t in_tile = bits(hn::And(deep, hn::RebindMask(d, one_tile))) & (views_.tiled >> first_);
-    const IntVec tile_columns = hn::Load(di, views_.tile_columns.data() + first_);
-    out.left |= (left & ~(in_tile & behindTiles(hn::Add(hn::Mul(tile_row, tile_columns), tile_column), out.raw)))
-                << first_;
+    out.left |= (visible & bits(contained)) << first_;
   }
 
  private:
+  /// Where the mean falls: the least cell that it can fall in, the raw depth that it is not nearer than, and the lanes
+  /// where no other cell is possible.
+  HWY_INLINE void findCells(FloatVec z, FloatVec from_left, FloatVec from_top, std::uint32_t inside,
+                            ProbedLanes& out) const {
+    const Float d;
+    const Int di;
+    const FloatVec slack = hn::Set(d, probe_.slack_m);
+    const Mask deep = hn::Ge(z, hn::Set(d, kLeastDepthInSlacks * probe_.slack_m));
+    const FloatVec per_m = hn::Div(hn::Set(d, 1.0F), hn::IfThenElse(deep, z, hn::Set(d, 1.0F)));
+    const FloatVec columns_per_m = hn::Mul(load(views_.cells_per_tan_x), per_m);
+    const FloatVec rows_per_m = hn::Mul(load(views_.cells_per_tan_y), per_m);
+    const FloatVec last_column = load(views_.last_column);
+    const FloatVec last_row = load(views_.last_row);
+    const IntVec column = toCell(leastCell(from_left, columns_per_m, last_column), last_column);
+    const IntVec row = toCell(leastCell(from_top, rows_per_m, last_row), last_row);
+    const IntVec max_column = toCell(greatestCell(from_left, columns_per_m, last_column), last_column);
+    const IntVec max_row = toCell(greatestCell(from_top, rows_per_m, last_row), last_row);
+    hn::Store(column, di, out.column.data() + first_);
+    hn::Store(row, di, out.row.data() + first_);
+    const auto one_cell = hn::And(hn::Eq(column, max_column), hn::Eq(row, max_row));
+    out.in_cell |= (inside & bits(hn::And(deep, hn::RebindMask(d, one_cell)))) << first_;
+
+    const FloatVec raw = hn::Mul(hn::Sub(z, slack), load(views_.counts_per_m));
+    const FloatVec certain_raw = hn::Min(hn::Max(raw, hn::Zero(d)), hn::Set(d, kGreatestCertainRaw));
+    hn::Store(hn::ConvertTo(di, certain_raw), di, out.raw.data() + first_);
+
+    const IntVec tile_row = hn::ShiftRight<kTileShift>(row);
+    const IntVec tile_columns = hn::Load(di, views_.tile_columns.data() + first_);
+    hn::Store(hn::Add(hn::Mul(tile_row, tile_columns), hn::ShiftRight<kTileShift>(column)), di,
+              out.tile.data() + first_);
+  }
+
+  /// Bits of the lanes where the pixel certainly carries a depth and the mean is not nearer than anything in its tile.
+  HWY_INLINE std::uint32_t behindTiles(ProbedLanes& out) const {
+    constexpr std::uint32_t kInTile = DepthTiles::kEdge_px - 1;
+    std::uint32_t behind = 0;
+    std::uint32_t gaps = 0;
+    for (std::size_t i = 0; i < laneCount(); ++i) {
+      const std::size_t lane = first_ + i;
+      const std::int32_t tile = out.tile[lane];
+      const std::uint32_t column_gaps = views_.gaps[lane][tile][static_cast<std::uint32_t>(out.column[lane]) & kInTile];
+      gaps |= (column_gaps >> (static_cast<std::uint32_t>(out.row[lane]) & kInTile) & 1U) << i;
+      behind |= static_cast<std::uint32_t>(out.raw[lane] >= views_.greatest[lane][tile]) << i;
+    }
+    const std::uint32_t with_depth = (out.in_cell & views_.tiled) >> first_ & ~gaps;
+    out.with_depth |= with_depth << first_;
+    return with_depth & behind;
+  }
+
   HWY_INLINE FloatVec load(const ViewLanes::Floats& lanes) const { return hn::Load(Float(), lanes.data() + first_); }
 
   /// Of the mean, in the cameras' frames.
@@ -146,22 +170,9 @@ class VectorProbe {
     return hn::NegMulAdd(hn::Add(last, hn::Set(Float(), 1.0F)), hn::Set(Float(), kCellRounding),
                          hn::Mul(cells_per_m, hn::Sub(slacked_m, twice_slack)));
   }
-  /// 0 outside `valid`.
-  HWY_INLINE IntVec toCell(Mask valid, FloatVec cell, FloatVec last) const {
-    const FloatVec in_image = hn::Min(hn::Max(cell, hn::Zero(Float())), last);
-    return hn::ConvertTo(Int(), hn::IfThenElseZero(valid, in_image));
-  }
-
-  /// Bits of the lanes where the mean is not nearer than anything in the tile.
-  HWY_INLINE std::uint32_t behindTiles(IntVec tile, const std::array<std::int32_t, kViewLanes>& raw) const {
-    HWY_ALIGN std::int32_t tiles[kViewLanes];
-    hn::Store(tile, Int(), tiles);
-    std::uint32_t behind = 0;
-    for (std::size_t lane = 0; lane < laneCount(); ++lane) {
-      const std::int32_t greatest = views_.greatest[first_ + lane][tiles[lane]];
-      behind |= static_cast<std::uint32_t>(raw[first_ + lane] >= greatest) << lane;
-    }
-    return behind;
+  /// Always a cell of the image, whatever the lane holds.
+  HWY_INLINE IntVec toCell(FloatVec cell, FloatVec last) const {
+    return hn::ConvertTo(Int(), hn::Min(hn::Max(cell, hn::Zero(Float())), last));
   }
 
   HWY_INLINE std::uint32_t bits(Mask mask) const {
@@ -179,6 +190,7 @@ std::size_t scan(std::span<const ViewLanes> lanes, const PointProbe& probe, Prob
   for (std::size_t block = 0; block < lanes.size(); ++block) {
     out.left = 0;
     out.in_cell = 0;
+    out.with_depth = 0;
     for (std::size_t first = 0; first < kViewLanes; first += VectorProbe::laneCount()) {
       VectorProbe(lanes[block], first, probe).run(out);
     }

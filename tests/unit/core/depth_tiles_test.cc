@@ -32,7 +32,9 @@ void expectBoundsOf(const DepthImage& image, const CameraModel& camera) {
           const std::uint16_t raw = image.pixels[static_cast<std::size_t>(v * image.width_px + u)];
           const bool none = camera.classify(raw) == DepthReading::kNone;
           least = std::min(least, none ? DepthTiles::kNoDepth : raw);
-          greatest = std::max(greatest, none ? DepthTiles::kNoDepth : raw);
+          greatest = std::max(greatest, none ? std::uint16_t{0} : raw);
+          const std::uint8_t gaps = tiles.gaps()[tiles.tileAt(column, row)][static_cast<std::size_t>(u % kEdge)];
+          ASSERT_EQ((gaps >> (v % kEdge) & 1) != 0, none) << u << ' ' << v;
         }
       }
       ASSERT_EQ(tiles.least()[tiles.tileAt(column, row)], least) << column << ' ' << row;
