@@ -1,209 +1,51 @@
 #include "tools/generate/flight_log.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <stdexcept>
-#include <utility>
+#include <string>
 
-#include "nanomap/goal_t.hpp"
-#include "tools/generate/arrival_queue.h"
 #include "tools/simulation/random.h"
-#include "tools/simulation/scene_catalogue.h"
 
 namespace nanomap::generate {
 namespace {
 
-using simulation::derivedSeed;
-using simulation::VehicleState;
-using simulation::VioEstimate;
-
-// The scene takes the seed as it is, so that it can be made again by its name and seed alone.
 constexpr std::uint32_t kFlightStream = 1;
-constexpr std::uint32_t kSensorStream = 2;
-constexpr std::uint32_t kVioStream = 3;
 
-Duration wholeMicroseconds(Duration duration) {
-  return std::chrono::duration_cast<std::chrono::microseconds>(duration);
-}
-
-/// Moments at a fixed rate, in whole microseconds and without accumulated rounding.
-class Ticker {
+/// Follows a path, whatever the sensors say.
+class PathFlyer : public Flyer {
  public:
-  /// @param rate_hz  0: never
-  Ticker(Time start, double rate_hz) : start_(start), rate_hz_(rate_hz) {}
+  PathFlyer(const simulation::FlightPath& path, Time start) : path_(path), start_(start) {}
 
-  [[nodiscard]] Time next() const {
-    if (rate_hz_ == 0.0) return Time::max();
-    return start_ + wholeMicroseconds(fromSeconds(static_cast<double>(count_) / rate_hz_));
-  }
-  [[nodiscard]] std::uint64_t count() const { return count_; }
-  void advance() { ++count_; }
+  [[nodiscard]] simulation::VehicleState at(Time stamp) override { return path_.at(stamp - start_); }
 
  private:
+  const simulation::FlightPath& path_;
   Time start_;
-  double rate_hz_;
-  std::uint64_t count_ = 0;
 };
 
-void require(bool holds, const char* name, double value, const char* rule) {
-  if (holds) return;
-  throw std::invalid_argument(std::string("flight log: ") + name + " is " + std::to_string(value) + ", must be " +
-                              rule);
-}
-
-FlightLogOptions checked(FlightLogOptions options) {
-  require(options.depth_hz > 0.0 && std::isfinite(options.depth_hz), "depth_hz", options.depth_hz, "positive");
-  require(options.correction_hz >= 0.0 && std::isfinite(options.correction_hz), "correction_hz", options.correction_hz,
-          "0 or more");
-  require(options.jump_m >= 0.0 && std::isfinite(options.jump_m), "jump_m", options.jump_m, "0 or more");
-  for (const auto& [latency, name] :
-       {std::pair(options.depth_latency, "depth_latency"), std::pair(options.pose_latency, "pose_latency"),
-        std::pair(options.correction_delay, "correction_delay")}) {
-    require(latency >= Duration::zero(), name, toSeconds(latency), "0 or more");
-  }
-  if (options.duration) {
-    require(*options.duration > Duration::zero(), "duration", toSeconds(*options.duration), "positive");
+const FlightLogOptions& checked(const FlightLogOptions& options) {
+  if (options.duration && *options.duration <= Duration::zero()) {
+    throw std::invalid_argument("flight log: duration is " + std::to_string(toSeconds(*options.duration)) +
+                                ", must be positive");
   }
   return options;
 }
 
-/// Writes one log: the state that advances while it is written.
-class Recording {
- public:
-  Recording(const FlightLogOptions& options, const LcmParameters& channels, const simulation::FlightPath& path,
-            simulation::VioSimulator vio, LogWriter& log)
-      : options_(options), channels_(channels), path_(path), vio_(std::move(vio)), queue_(log) {}
-
-  void addCamera(Time stamp) {
-    queue_.add(channels_.camera_channel, stamp, toMessage(options_.camera, FlightLog::kCameraName, stamp));
-  }
-
-  void addGoal(Time stamp, const simulation::Scene& scene, std::uint64_t sequence) {
-    goal_t goal;
-    goal.utime = utimeFromTime(stamp);
-    goal.sequence = static_cast<std::int64_t>(sequence);
-    goal.epoch = static_cast<std::int32_t>(vio_.epoch());
-    Vec3::Map(goal.position) = scene.mission().goal_W;
-    goal.top_speed = options_.flight.cruise_speed_m_s;
-    queue_.add(channels_.goal_channel, stamp, goal);
-  }
-
-  void addPose(Time stamp, const simulation::Scene& scene) {
-    const VehicleState truth = stateAt(stamp);
-    const VioEstimate estimate = vio_.estimate(stamp, truth);
-    const Time arrival = stamp + options_.pose_latency;
-    BodyMotion motion{estimate.velocity_W_m_s, truth.angular_rate_B_rad_s, truth.acceleration_W_m_s2};
-    if (options_.pose_type == PoseType::kBodyPose) {
-      queue_.add(channels_.pose_channel, arrival, toMessage(estimate.pose, motion));
-    } else {
-      queue_.add(channels_.pose_channel, arrival, toPoseMessage(estimate.pose, channels_.pose_t_body));
-    }
-    motion.velocity_W_m_s = truth.velocity_W_m_s;
-    BodyPose true_pose;
-    true_pose.stamp = stamp;
-    true_pose.T_W_B = truth.T_W_B;
-    true_pose.sequence = estimate.pose.sequence;
-    queue_.add(FlightLog::kTruthChannel, arrival, toMessage(true_pose, motion));
-
-    const Vec3& p_W = truth.T_W_B.translation_m;
-    if (last_position_W_) summary_.flown_m += (p_W - *last_position_W_).norm();
-    last_position_W_ = p_W;
-    summary_.min_clearance_m = std::min(summary_.min_clearance_m, scene.distanceToNearestObstacle(p_W));
-    summary_.final_error_m = (estimate.pose.T_W_B.translation_m - p_W).norm();
-  }
-
-  void addDepth(Time stamp, std::uint64_t sequence, const CameraModel& camera, const simulation::RayCaster& ray_caster,
-                const simulation::DepthSensor& sensor) {
-    const Pose T_W_C = stateAt(stamp).T_W_B * camera.parameters().T_B_C;
-    const DepthImage image = sensor.measure(ray_caster.render(camera, T_W_C), stamp, sequence);
-    pixels_ += image.pixels.size();
-    returns_ += image.pixels.size() - static_cast<std::size_t>(std::count(image.pixels.begin(), image.pixels.end(), 0));
-    queue_.add(channels_.depth_channel, stamp + options_.depth_latency,
-               toMessage(image, FlightLog::kCameraName, options_.compression));
-  }
-
-  void addCorrection(Time window_end) {
-    const Time computed = window_end + options_.correction_delay;
-    queue_.add(channels_.correction_channel, computed, toMessage(vio_.correct(), computed));
-  }
-
-  void jump() { vio_.jump(options_.jump_m); }
-
-  /// Everything that will be added from now on arrives at `time` or later.
-  void writeUntil(Time time) { queue_.writeUntil(time); }
-
-  FlightLogSummary finish() {
-    queue_.writeAll();
-    summary_.messages = queue_.counts();
-    if (pixels_ > 0) summary_.depth_share = static_cast<double>(returns_) / static_cast<double>(pixels_);
-    return summary_;
-  }
-
- private:
-  [[nodiscard]] VehicleState stateAt(Time stamp) const { return path_.at(stamp - options_.start); }
-
-  const FlightLogOptions& options_;
-  const LcmParameters& channels_;
-  const simulation::FlightPath& path_;
-  simulation::VioSimulator vio_;
-  ArrivalQueue queue_;
-  FlightLogSummary summary_{.messages = {}, .min_clearance_m = std::numeric_limits<double>::infinity()};
-  std::optional<Vec3> last_position_W_;
-  std::uint64_t pixels_ = 0;
-  std::uint64_t returns_ = 0;
-};
+SensedFlightOptions withCruiseSpeed(const FlightLogOptions& options) {
+  SensedFlightOptions sensed = options;
+  sensed.goal_speed_m_s = options.flight.cruise_speed_m_s;
+  return sensed;
+}
 
 }  // namespace
 
-FlightLog::FlightLog(FlightLogOptions options)
-    : options_(checked(std::move(options))),
-      camera_(options_.camera),
-      scene_(simulation::makeScene(options_.scene, options_.seed)),
-      path_(scene_, options_.flight, derivedSeed(options_.seed, kFlightStream)),
-      ray_caster_(scene_.mesh()),
-      sensor_(camera_, options_.sensor, derivedSeed(options_.seed, kSensorStream)),
-      vio_(options_.vio, derivedSeed(options_.seed, kVioStream)),
-      duration_(options_.duration.value_or(path_.duration())) {}
+FlightLog::FlightLog(const FlightLogOptions& options)
+    : sensed_(withCruiseSpeed(checked(options))),
+      path_(sensed_.scene(), options.flight, simulation::derivedSeed(options.seed, kFlightStream)),
+      duration_(options.duration.value_or(path_.duration())) {}
 
-FlightLogSummary FlightLog::write(const LcmParameters& channels, LogWriter& log) const {
-  constexpr double kAnnouncements_hz = 1.0;  // camera and goal, for who joins late
-  const Time end = options_.start + duration_;
-  Recording recording(options_, channels, path_, vio_, log);
-  Ticker announcements(options_.start, kAnnouncements_hz);
-  Ticker poses(options_.start, 1.0 / toSeconds(options_.vio.period));
-  Ticker images(options_.start, options_.depth_hz);
-  Ticker corrections(options_.start, options_.correction_hz);
-  corrections.advance();  // no window at the start
-  Time jump = options_.jump_m > 0.0 ? options_.start + duration_ / 2 : Time::max();
-  for (;;) {
-    const Time now = std::min({announcements.next(), poses.next(), images.next(), corrections.next()});
-    if (now >= end) break;
-    recording.writeUntil(now);
-    if (now >= jump) {
-      recording.jump();
-      jump = Time::max();
-    }
-    if (announcements.next() == now) {
-      recording.addCamera(now);
-      recording.addGoal(now, scene_, announcements.count());
-      announcements.advance();
-    }
-    if (poses.next() == now) {
-      recording.addPose(now, scene_);
-      poses.advance();
-    }
-    if (images.next() == now) {
-      recording.addDepth(now, images.count(), camera_, ray_caster_, sensor_);
-      images.advance();
-    }
-    if (corrections.next() == now) {
-      recording.addCorrection(now);
-      corrections.advance();
-    }
-  }
-  return recording.finish();
+SensedFlightSummary FlightLog::write(const LcmParameters& channels, LogWriter& log) const {
+  PathFlyer flyer(path_, sensed_.options().start);
+  return sensed_.record(channels, duration_, flyer, log);
 }
 
 }  // namespace nanomap::generate

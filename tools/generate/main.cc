@@ -100,7 +100,7 @@ FlightLogOptions optionsOf(const Arguments& arguments) {
   return options;
 }
 
-void print(const Arguments& arguments, const FlightLog& flight, const FlightLogSummary& summary) {
+void print(const Arguments& arguments, const FlightLog& flight, const SensedFlightSummary& summary) {
   fmt::print("{}: {:.1f} s through scene '{}' (seed {}, {} obstacles), {:.1f} m flown, clearance {:.2f} m or more\n",
              arguments.log.string(), toSeconds(flight.duration()), flight.scene().name(), arguments.options.seed,
              flight.scene().obstacles().size(), summary.flown_m, summary.min_clearance_m);
@@ -113,7 +113,7 @@ void print(const Arguments& arguments, const FlightLog& flight, const FlightLogS
 void run(const Arguments& arguments) {
   const FlightLog flight(optionsOf(arguments));
   LogWriter log(arguments.log);
-  const FlightLogSummary summary = flight.write(LcmParameters(), log);
+  const SensedFlightSummary summary = flight.write(LcmParameters(), log);
   log.close();
   print(arguments, flight, summary);
 }

@@ -48,9 +48,9 @@ class FlightLogTest : public testing::Test {
  protected:
   ~FlightLogTest() override { std::filesystem::remove(file_); }
 
-  FlightLogSummary write(const FlightLogOptions& options) {
+  SensedFlightSummary write(const FlightLogOptions& options) {
     LogWriter log(file_);
-    const FlightLogSummary summary = FlightLog(options).write(LcmParameters(), log);
+    const SensedFlightSummary summary = FlightLog(options).write(LcmParameters(), log);
     log.close();
     return summary;
   }
@@ -106,7 +106,7 @@ TEST_F(FlightLogTest, HoldsEveryChannelAtItsRate) {
   FlightLogOptions options = smallOptions();
   options.duration = std::chrono::seconds(3);
   options.correction_hz = 2.0;
-  const FlightLogSummary summary = write(options);
+  const SensedFlightSummary summary = write(options);
   EXPECT_THAT(summary.messages,
               testing::ElementsAre(testing::Pair("CAMERA", 3), testing::Pair("DEPTH", 90), testing::Pair("GOAL", 3),
                                    testing::Pair("POSE_BODY", 300), testing::Pair("POSE_CORRECTION", 5),
@@ -116,7 +116,7 @@ TEST_F(FlightLogTest, HoldsEveryChannelAtItsRate) {
   EXPECT_THAT(messages<goal_t>(), SizeIs(3));
   EXPECT_THAT(messages<pose_correction_t>(), SizeIs(5));
   EXPECT_THAT(poses("POSE_BODY"), SizeIs(300));
-  EXPECT_THAT(poses(FlightLog::kTruthChannel), SizeIs(300));
+  EXPECT_THAT(poses(SensedFlight::kTruthChannel), SizeIs(300));
 }
 
 TEST_F(FlightLogTest, EventsAreInTheOrderOfTheirArrival) {
@@ -162,7 +162,7 @@ TEST_F(FlightLogTest, ImagesDecodeToWhatTheCameraAnnounces) {
   for (const DepthCompression compression : {DepthCompression::kBlosc, DepthCompression::kRaw}) {
     FlightLogOptions options = smallOptions();
     options.compression = compression;
-    const FlightLogSummary summary = write(options);
+    const SensedFlightSummary summary = write(options);
     const auto announced = messages<camera_model_t>();
     const CameraModel camera(std::get<CameraParameters>(toCameraParameters(announced.front().message)));
     EXPECT_TRUE(camera.parameters().T_B_C.translation_m.isApprox(options.camera.T_B_C.translation_m));
@@ -188,7 +188,7 @@ TEST_F(FlightLogTest, ImagesShowTheSceneFromTheTruePose) {
   options.duration = std::chrono::seconds(3);
   write(options);
   const simulation::Scene scene = FlightLog(options).scene();
-  const auto truths = poses(FlightLog::kTruthChannel);
+  const auto truths = poses(SensedFlight::kTruthChannel);
   const CameraModel camera(options.camera);
   int returns = 0;
   for (const auto& logged : messages<depth_image_t>()) {
@@ -213,9 +213,9 @@ TEST_F(FlightLogTest, PosesDriftFromTheTruthAndCorrectionsDoNot) {
   options.duration = std::chrono::seconds(6);
   options.depth_hz = 1.0;
   options.correction_hz = 1.0;
-  const FlightLogSummary summary = write(options);
+  const SensedFlightSummary summary = write(options);
   const auto estimates = poses("POSE_BODY");
-  const auto truths = poses(FlightLog::kTruthChannel);
+  const auto truths = poses(SensedFlight::kTruthChannel);
   ASSERT_EQ(estimates.size(), truths.size());
   EXPECT_EQ(toPose(estimates.front().message.world_from_body).translation_m,
             toPose(truths.front().message.world_from_body).translation_m);
@@ -260,15 +260,15 @@ TEST_F(FlightLogTest, PoseTypeMayBeTheCommonOne) {
   write(options);
   EXPECT_THAT(messages<bot_core::pose_t>(), SizeIs(100));
   EXPECT_THAT(poses("POSE_BODY"), testing::IsEmpty());
-  EXPECT_THAT(poses(FlightLog::kTruthChannel), SizeIs(100));
+  EXPECT_THAT(poses(SensedFlight::kTruthChannel), SizeIs(100));
 }
 
 TEST_F(FlightLogTest, WithoutADurationEndsAtTheGoal) {
   FlightLogOptions options = smallOptions();
   options.duration.reset();
   options.depth_hz = 0.5;
-  const FlightLogSummary summary = write(options);
-  const Vec3 last_W = toPose(poses(FlightLog::kTruthChannel).back().message.world_from_body).translation_m;
+  const SensedFlightSummary summary = write(options);
+  const Vec3 last_W = toPose(poses(SensedFlight::kTruthChannel).back().message.world_from_body).translation_m;
   const goal_t goal = messages<goal_t>().front().message;
   EXPECT_LT((last_W - Vec3(goal.position)).norm(), 0.1);
   EXPECT_GT(summary.flown_m, 70.0);
@@ -280,7 +280,7 @@ TEST_F(FlightLogTest, LongerThanTheFlightHovers) {
   options.duration = std::chrono::seconds(40);
   options.depth_hz = 0.1;
   write(options);
-  const auto truths = poses(FlightLog::kTruthChannel);
+  const auto truths = poses(SensedFlight::kTruthChannel);
   EXPECT_EQ(truths.size(), 4000U);
   EXPECT_EQ(Vec3(truths.back().message.velocity), Vec3::Zero());
 }
