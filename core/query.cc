@@ -1,6 +1,8 @@
 #include "core/query.h"
 
+#include <algorithm>
 #include <cassert>
+#include <numeric>
 
 namespace nanomap {
 
@@ -16,25 +18,58 @@ Location locate(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const 
   return newest;
 }
 
-QueryReply query(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const QueryOptions& options) {
+QueryReply nearestAt(const ChainSnapshot& snapshot, const Location& location, const UncertainPoint& x_B,
+                     const QueryOptions& options, float max_distance_m) {
   assert(options.k >= 1 && options.k <= kMaxNeighbours);
   QueryReply reply;
-  const Location location = locate(snapshot, x_B, options);
   reply.status = location.status;
   reply.view_index = location.view_index;
   if (!location.view_index) return reply;
 
   const SnapshotView& view = snapshot.views[*location.view_index];
   reply.x_C = view.toCamera(x_B);
-  reply.neighbour_count = static_cast<std::uint32_t>(view.view->index().nearest(
-      reply.x_C.mean_m.cast<float>(), std::span(reply.neighbours).first(static_cast<std::size_t>(options.k))));
+  const auto wanted = std::span(reply.neighbours).first(static_cast<std::size_t>(options.k));
+  reply.neighbour_count =
+      static_cast<std::uint32_t>(view.view->index().nearest(reply.x_C.mean_m.cast<float>(), wanted, max_distance_m));
   return reply;
+}
+
+QueryReply query(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const QueryOptions& options) {
+  return nearestAt(snapshot, locate(snapshot, x_B, options), x_B, options);
+}
+
+std::span<Location> QueryScratch::locations(std::size_t count) {
+  locations_.resize(std::max(locations_.size(), count));
+  return std::span(locations_).first(count);
+}
+
+/// Counting sort, stable.
+std::span<const std::uint32_t> QueryScratch::orderByView(std::span<const Location> locations, std::size_t view_count) {
+  const auto viewOf = [](const Location& location) { return location.view_index.value_or(0); };
+  first_of_view_.assign(view_count + 1, 0);
+  for (const Location& location : locations) ++first_of_view_[viewOf(location) + 1];
+  std::partial_sum(first_of_view_.begin(), first_of_view_.end(), first_of_view_.begin());
+  order_.resize(std::max(order_.size(), locations.size()));
+  for (std::uint32_t i = 0; i < locations.size(); ++i) order_[first_of_view_[viewOf(locations[i])]++] = i;
+  return std::span(order_).first(locations.size());
+}
+
+void queryBatch(const ChainSnapshot& snapshot, std::span<const UncertainPoint> points_B, const QueryOptions& options,
+                QueryScratch& scratch, std::span<QueryReply> replies, std::span<const float> max_distances_m) {
+  assert(points_B.size() == replies.size());
+  assert(max_distances_m.empty() || max_distances_m.size() == points_B.size());
+  const std::span<Location> locations = scratch.locations(points_B.size());
+  for (std::size_t i = 0; i < points_B.size(); ++i) locations[i] = locate(snapshot, points_B[i], options);
+  for (const std::uint32_t i : scratch.orderByView(locations, std::max<std::size_t>(snapshot.views.size(), 1))) {
+    const float max_distance_m = max_distances_m.empty() ? NearestPointIndex::kAnyDistance : max_distances_m[i];
+    replies[i] = nearestAt(snapshot, locations[i], points_B[i], options, max_distance_m);
+  }
 }
 
 void queryBatch(const ChainSnapshot& snapshot, std::span<const UncertainPoint> points_B, const QueryOptions& options,
                 std::span<QueryReply> replies) {
-  assert(points_B.size() == replies.size());
-  for (std::size_t i = 0; i < points_B.size(); ++i) replies[i] = query(snapshot, points_B[i], options);
+  QueryScratch scratch;
+  queryBatch(snapshot, points_B, options, scratch, replies);
 }
 
 }  // namespace nanomap

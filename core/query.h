@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/classify.h"
 #include "core/nearest_point_index.h"
@@ -45,7 +46,35 @@ struct QueryReply {
 /// Allocates: no, except inside FLANN. Threads: any number of readers.
 [[nodiscard]] QueryReply query(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const QueryOptions& options);
 
-/// The same for a batch: `replies[i]` answers `points_B[i]`. @pre equal sizes
+/// The second half, for a point that locate() has placed: its mean and covariance in the view's frame and its nearest
+/// neighbours, no farther than `max_distance_m`. @pre as of query(), and `location` is locate()'s for the same
+/// arguments Allocates: no, except inside FLANN. Threads: any number of readers.
+[[nodiscard]] QueryReply nearestAt(const ChainSnapshot& snapshot, const Location& location, const UncertainPoint& x_B,
+                                   const QueryOptions& options, float max_distance_m = NearestPointIndex::kAnyDistance);
+
+/// What queryBatch() works in. Keep one for each thread: it allocates only for more points or views than ever before.
+class QueryScratch {
+ public:
+  /// Points in the order of their views, the newest first.
+  [[nodiscard]] std::span<const std::uint32_t> orderByView(std::span<const Location> locations, std::size_t view_count);
+
+  [[nodiscard]] std::span<Location> locations(std::size_t count);
+
+ private:
+  std::vector<Location> locations_;
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> first_of_view_;
+};
+
+/// Queries a batch, a primitive's samples or a whole plan's: `replies[i]` answers `points_B[i]` as query() does. All
+/// points are placed first and then searched for view by view, so that each view's index is fetched once.
+/// @param max_distances_m  of each point's neighbours; empty: as far as there are any
+/// @pre as many replies as points, and as many distances unless there are none
+/// A caller that may stop early places its points with locate(), and asks nearestAt() for those that still matter.
+void queryBatch(const ChainSnapshot& snapshot, std::span<const UncertainPoint> points_B, const QueryOptions& options,
+                QueryScratch& scratch, std::span<QueryReply> replies, std::span<const float> max_distances_m = {});
+
+/// The same with a scratch of its own, which it allocates: for tools.
 void queryBatch(const ChainSnapshot& snapshot, std::span<const UncertainPoint> points_B, const QueryOptions& options,
                 std::span<QueryReply> replies);
 

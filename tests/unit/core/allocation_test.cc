@@ -50,8 +50,10 @@ TEST_P(AllocationIn, AQueryAllocatesOnlyInsideFlann) {
 
   std::array<UncertainPoint, 8> points_B{};
   std::array<QueryReply, 8> replies;
+  QueryScratch scratch;
+  queryBatch(snapshot, points_B, {}, scratch, replies);
   before = test::allocationCount();
-  queryBatch(snapshot, points_B, {}, replies);
+  queryBatch(snapshot, points_B, {}, scratch, replies);
   EXPECT_EQ(test::allocationCount() - before, points_B.size() * allocations_in_flann);
 }
 

@@ -163,23 +163,62 @@ TEST_F(TurningFlight, ReturnsAsManyNeighboursAsAskedInOrder) {
   }
 }
 
+void expectSame(const QueryReply& got, const QueryReply& expected) {
+  EXPECT_EQ(got.status, expected.status);
+  EXPECT_EQ(got.view_index, expected.view_index);
+  EXPECT_EQ(got.x_C.mean_m, expected.x_C.mean_m);
+  EXPECT_EQ(got.x_C.covariance_m2, expected.x_C.covariance_m2);
+  ASSERT_EQ(got.neighbour_count, expected.neighbour_count);
+  for (std::size_t i = 0; i < expected.found().size(); ++i) {
+    EXPECT_EQ(got.found()[i].distance_m, expected.found()[i].distance_m);
+  }
+}
+
 TEST_F(TurningFlight, ABatchEqualsItsQueries) {
   std::mt19937 random(kSeed);
-  std::vector<UncertainPoint> points_B;
-  for (int i = 0; i < 200; ++i) points_B.push_back({Vec3::Random() * 6.0, randomCovariance(random, 0.1)});
-  std::vector<QueryReply> replies(points_B.size());
   const QueryOptions options{.k = 4};
-  queryBatch(snapshot_, points_B, options, replies);
-  for (std::size_t i = 0; i < points_B.size(); ++i) {
-    const QueryReply alone = query(snapshot_, points_B[i], options);
-    EXPECT_EQ(replies[i].status, alone.status);
-    EXPECT_EQ(replies[i].view_index, alone.view_index);
-    EXPECT_EQ(replies[i].x_C.mean_m, alone.x_C.mean_m);
-    ASSERT_EQ(replies[i].neighbour_count, alone.neighbour_count);
-    for (std::size_t j = 0; j < alone.found().size(); ++j) {
-      EXPECT_EQ(replies[i].found()[j].distance_m, alone.found()[j].distance_m);
-    }
+  QueryScratch scratch;
+  for (const int count : {200, 0, 1, 20}) {  // a scratch that has seen more, too
+    std::vector<UncertainPoint> points_B;
+    for (int i = 0; i < count; ++i) points_B.push_back({Vec3::Random() * 6.0, randomCovariance(random, 0.1)});
+    std::vector<QueryReply> replies(points_B.size());
+    queryBatch(snapshot_, points_B, options, scratch, replies);
+    for (std::size_t i = 0; i < points_B.size(); ++i) expectSame(replies[i], query(snapshot_, points_B[i], options));
   }
+}
+
+TEST_F(TurningFlight, ABatchKeepsTheNeighboursWithinEachPointsDistance) {
+  std::mt19937 random(kSeed);
+  const QueryOptions options{.k = 4};
+  std::uniform_real_distribution<float> distance_m(0.0F, 6.0F);
+  std::vector<UncertainPoint> points_B;
+  std::vector<float> max_distances_m;
+  for (int i = 0; i < 200; ++i) {
+    points_B.push_back({Vec3::Random() * 6.0, randomCovariance(random, 0.1)});
+    max_distances_m.push_back(distance_m(random));
+  }
+  std::vector<QueryReply> replies(points_B.size());
+  QueryScratch scratch;
+  queryBatch(snapshot_, points_B, options, scratch, replies, max_distances_m);
+  int cut = 0;
+  for (std::size_t i = 0; i < points_B.size(); ++i) {
+    QueryReply expected = query(snapshot_, points_B[i], options);
+    const std::uint32_t all = expected.neighbour_count;
+    while (expected.neighbour_count > 0 && expected.found().back().distance_m > max_distances_m[i]) {
+      --expected.neighbour_count;
+    }
+    if (expected.neighbour_count < all) ++cut;
+    expectSame(replies[i], expected);
+  }
+  EXPECT_GT(cut, 20);
+}
+
+TEST(Query, ABatchWithoutAViewIsEmpty) {
+  const std::array<UncertainPoint, 3> points_B{};
+  std::array<QueryReply, 3> replies;
+  QueryScratch scratch;
+  queryBatch(ChainSnapshot{}, points_B, {}, scratch, replies);
+  for (const QueryReply& reply : replies) EXPECT_EQ(reply.status, Status::kEmpty);
 }
 
 TEST_F(TurningFlight, StatisticsTellHowFarBackAnswersCameFrom) {
