@@ -14,6 +14,8 @@ std::string_view toString(Reason reason) {
       return "the goal is out of view: turning towards it";
     case Reason::kBlocked:
       return "blocked: looking around";
+    case Reason::kRetreating:
+      return "too near to something: moving away from it";
     case Reason::kNothingVerified:
       return "nothing is safe, not even stopping: keep to the last verified brake";
     case Reason::kNoGoal:

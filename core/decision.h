@@ -18,7 +18,8 @@ enum class Reason : std::uint8_t {
   kSlowing,          ///< faster than the goal's top speed
   kTurning,          ///< stands, and turns towards a goal that is out of view
   kBlocked,          ///< nothing that leads nearer to the goal is safe; looks around
-  kNothingVerified,  ///< not even stopping is: the last verified brake stays in force
+  kRetreating,       ///< too near to something, where not even stopping is safe: moves away from it
+  kNothingVerified,  ///< not even stopping is safe, and nothing leads away: the last verified brake stays in force
   kNoGoal,           ///< none given yet
   kGoalInvalid,      ///< not finite, beyond all reason, or without a positive top speed
   kGoalOtherEpoch,   ///< given in a world that the estimator has left
@@ -27,7 +28,7 @@ enum class Reason : std::uint8_t {
   kStateOtherTime,   ///< too old, or ahead of the time planned for
   kStateOtherEpoch,  ///< of another world than the snapshot
 };
-inline constexpr std::size_t kReasonCount = 13;
+inline constexpr std::size_t kReasonCount = 14;
 
 /// In a pilot's words.
 [[nodiscard]] std::string_view toString(Reason reason);

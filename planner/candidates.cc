@@ -1,7 +1,7 @@
 #include "planner/candidates.h"
 
-#include "planner/brake.h"
 #include "core/level_frame.h"
+#include "planner/brake.h"
 
 namespace nanomap {
 
@@ -47,6 +47,10 @@ Proposal Candidates::propose(std::uint32_t index) const {
     reward = objective_.motionReward(standstill_W, velocity_W.norm());
   }
   return {index, reward, objective_.bound(reward, parameters_.risk.max_risk)};
+}
+
+TrajectoryRisk Candidates::assessBrake(std::uint32_t index) const {
+  return space_.assess(brake(index), parameters_.brake_samples, false);
 }
 
 Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* evidence) const {

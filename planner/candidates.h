@@ -55,6 +55,9 @@ class Candidates {
 
   [[nodiscard]] Proposal propose(std::uint32_t index) const;
 
+  /// All of the candidate's brake, whatever its motion is worth.
+  [[nodiscard]] TrajectoryRisk assessBrake(std::uint32_t index) const;
+
   /// @param stop_early  leave the risk of what is vetoed unfinished
   /// @param evidence    filled if given
   [[nodiscard]] Verdict judge(std::uint32_t index, bool stop_early, Evidence* evidence = nullptr) const;

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <span>
 
+#include "core/level_frame.h"
 #include "planner/candidates.h"
 #include "planner/heading.h"
 #include "planner/input_check.h"
-#include "core/level_frame.h"
+#include "planner/retreat.h"
 
 namespace nanomap {
 namespace {
@@ -128,6 +129,7 @@ double wantedHeading(const PlannerParameters& parameters, const Inputs& inputs, 
       return has_direction ? headingTo(velocity_W) : goal_heading_rad;
     }
     case Reason::kBlocked:
+    case Reason::kRetreating:
     case Reason::kNothingVerified: {
       // What a sweep reaches anyway need not be turned to first, else the two would take turns.
       const double reach_rad = std::max(view.half_width_rad, parameters.heading.sweep_amplitude_rad);
@@ -158,7 +160,11 @@ Decision Planner::plan(const ChainSnapshot& snapshot, const VehicleState& state,
   const Task task = taskOf(parameters_, library_, inputs);
   const std::optional<Choice> choice = choose(task, parameters_.early_exit, decision);
 
-  decision.candidate = choice ? choice->index : kBrake;
+  const std::optional<Retreat> retreat =
+      choice ? std::nullopt
+             : chooseRetreat(task.candidates, parameters_.objective.least_gain_m, parameters_.risk.max_risk);
+
+  decision.candidate = choice ? choice->index : retreat ? retreat->index : kBrake;
   decision.trajectory = task.candidates.motion(*decision.candidate);
   decision.brake = task.candidates.brake(*decision.candidate);
   if (choice) {
@@ -166,7 +172,10 @@ Decision Planner::plan(const ChainSnapshot& snapshot, const VehicleState& state,
     decision.brake_verified = choice->verdict.stop.has_value();
     if (choice->verdict.stop) decision.brake_risk = choice->verdict.stop->risk;
   }
-  if (!choice) {
+  if (retreat) {
+    decision.risk = retreat->brake.risk;
+    decision.reason = Reason::kRetreating;
+  } else if (!choice) {
     decision.reason = Reason::kNothingVerified;
   } else if (task.hold) {
     decision.reason = *task.hold;

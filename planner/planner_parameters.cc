@@ -124,6 +124,8 @@ void check(const PlannerParameters& parameters) {
   check(parameters.objective);
   check(parameters.risk);
   check(parameters.heading);
+  requireNotNegative("tracking.max_position_error_m", parameters.tracking.max_position_error_m);
+  requireNotNegative("tracking.max_velocity_error_m_s", parameters.tracking.max_velocity_error_m_s);
   requirePositive("brake_after_s", parameters.brake_after_s);
   requireAtLeast("horizon.min_s", parameters.horizon.min_s, "brake_after_s", parameters.brake_after_s);
   const double gain_m = gainFromRest_m(parameters);

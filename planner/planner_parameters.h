@@ -18,10 +18,17 @@ enum class StopCheck : std::uint8_t {
 /// How far ahead a primitive must be safe: as long as it takes to fly `distance_m` at the present speed, within limits.
 struct HorizonParameters {
   double min_s = 1.0;
-  double max_s = 2.0;  ///< the quotient has no bound at rest
+  double max_s = 1.5;  ///< the quotient has no bound at rest
   double distance_m = 10.0;
 
   [[nodiscard]] double at(double speed_m_s) const;
+};
+
+/// How far the vehicle may be from the motion in force and still be taken to follow it. With 0 every plan starts from
+/// the state as measured.
+struct TrackingTolerance {
+  double max_position_error_m = 0.5;
+  double max_velocity_error_m_s = 1.5;  ///< a vehicle lags behind its velocity wherever it is pushed
 };
 
 struct PlannerParameters {
@@ -31,6 +38,7 @@ struct PlannerParameters {
   ObjectiveParameters objective;
   RiskParameters risk;
   HeadingParameters heading;
+  TrackingTolerance tracking;
 
   StopCheck stop_check = StopCheck::kVerified;
   double brake_after_s =

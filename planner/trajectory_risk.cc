@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nanomap {
 namespace {
@@ -14,21 +13,30 @@ class RiskTally {
 
   void add(const SampleEvidence& sample) {
     survival_ *= 1.0 - sample.risk;
-    if (veto_) return;
+    result_.least_distance_m = std::min(result_.least_distance_m, sample.distance_m());
+    result_.largest_prior = std::max(result_.largest_prior, sample.prior);
+    if (result_.veto) return;
     if (sample.risk > heaviest_.risk) heaviest_ = sample;
-    if (risk() <= max_risk_) return;
-    veto_.emplace();
-    if (heaviest_.prior >= heaviest_.collision_probability) veto_->status = heaviest_.status;
+    if (1.0 - survival_ <= max_risk_) return;
+    result_.veto.emplace();
+    if (heaviest_.prior >= heaviest_.collision_probability) result_.veto->status = heaviest_.status;
   }
 
-  [[nodiscard]] double risk() const { return 1.0 - survival_; }
-  [[nodiscard]] const std::optional<VetoCause>& veto() const { return veto_; }
+  [[nodiscard]] bool isVetoed() const { return result_.veto.has_value(); }
+
+  [[nodiscard]] TrajectoryRisk result(const SampleEvidence& first, const SampleEvidence& last) const {
+    TrajectoryRisk result = result_;
+    result.risk = 1.0 - survival_;
+    result.first = first;
+    result.last = last;
+    return result;
+  }
 
  private:
   double max_risk_;
   double survival_ = 1.0;
   SampleEvidence heaviest_;
-  std::optional<VetoCause> veto_;
+  TrajectoryRisk result_;
 };
 
 }  // namespace
@@ -76,25 +84,23 @@ TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, boo
     if (evidence != nullptr) evidence->push_back(sample);
     return sample;
   };
-  const auto decided = [&] { return stop_early && tally.veto(); };
-  const auto clearance_m = [&](const SampleEvidence& sample) {
-    return sample.nearest_m.value_or(std::numeric_limits<double>::infinity()) - radius_m;
-  };
+  const auto decided = [&] { return stop_early && tally.isVetoed(); };
 
-  SampleEvidence previous = assessAt(0.0);
+  const SampleEvidence first = assessAt(0.0);
+  SampleEvidence last = first;
+  Vec3 previous_W_m = first.position_W_m;
   for (int i = 1; i <= samples && !decided(); ++i) {
-    const SampleEvidence next = assessAt(duration_s * i / samples);
-    const double spacing_m = (next.position_W_m - previous.position_W_m).norm();
-    const bool matters = std::min(clearance_m(previous), clearance_m(next)) < spacing_m;
-    if (matters && spacing_m > radius_m) {
-      const int parts = static_cast<int>(std::ceil(spacing_m / radius_m));
-      for (int part = 1; part < parts && !decided(); ++part) {
-        (void)assessAt(std::lerp(previous.elapsed_s, next.elapsed_s, static_cast<double>(part) / parts));
-      }
+    const double begin_s = duration_s * (i - 1) / samples;
+    const double end_s = duration_s * i / samples;
+    const Vec3 next_W_m = trajectory.sample(end_s).position_m;
+    const int parts = std::max(static_cast<int>(std::ceil((next_W_m - previous_W_m).norm() / radius_m)), 1);
+    for (int part = 1; part < parts && !decided(); ++part) {
+      last = assessAt(std::lerp(begin_s, end_s, static_cast<double>(part) / parts));
     }
-    previous = next;
+    if (!decided()) last = assessAt(end_s);
+    previous_W_m = next_W_m;
   }
-  return {tally.risk(), tally.veto(), previous};
+  return tally.result(first, last);
 }
 
 }  // namespace nanomap

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "core/classify.h"
 #include "core/query.h"
 #include "core/trajectory.h"
 #include "planner/collision_probability.h"
@@ -12,8 +14,9 @@
 namespace nanomap {
 
 /// How uncertain the vehicle is about where it will be: a standard deviation in each horizontal direction or vertically
-/// that grows with speed and time. The defaults fit the authors' at moderate speeds (FIELD.md), who have no term of
-/// time.
+/// that grows with speed and time. The defaults cover how far the simulated vehicle of tools/sim strays from what it was
+/// told (0.15 m in three dimensions, root mean square, on forest flights at up to 7.7 m/s); a heavier vehicle needs its
+/// own. The authors' are larger and have no term of time.
 struct DeviationGrowth {
   double base_m = 0.0;
   double per_speed_s = 0.0;
@@ -36,7 +39,7 @@ struct DeviationGrowth {
 
 struct RiskParameters {
   double max_risk = 0.001;  ///< the chance constraint of the paper
-  DeviationGrowth horizontal{.base_m = 0.07, .per_speed_s = 0.024, .per_time_m_s = 0.02};
+  DeviationGrowth horizontal{.base_m = 0.05, .per_speed_s = 0.012, .per_time_m_s = 0.02};
   DeviationGrowth vertical{.base_m = 0.04, .per_speed_s = 0.008, .per_time_m_s = 0.01};
   double bubble_margin_m = 0.2;  ///< beyond the vehicle's radius: where no frustum reaches
   CollisionParameters collision;
@@ -57,8 +60,11 @@ struct SampleEvidence {
   double collision_probability = 0.0;       ///< from the neighbours
   double risk = 0.0;                        ///< of both
 
+  /// Distance to the nearest measured point; infinite if there is none.
+  [[nodiscard]] double distance_m() const { return nearest_m.value_or(std::numeric_limits<double>::infinity()); }
+
   /// Free or open, or where the vehicle is anyway: a place to stand still.
-  [[nodiscard]] bool seenFree() const { return in_bubble || status == Status::kFree || status == Status::kOpen; }
+  [[nodiscard]] bool seenFree() const { return in_bubble || endsSearch(status); }
 };
 
 /// What weighed most against something: a status, or measured points where there is none.
@@ -69,7 +75,10 @@ struct VetoCause {
 struct TrajectoryRisk {
   double risk = 0.0;              ///< 1 - prod(1 - p_sample); if evaluation stopped early, of the samples up to there
   std::optional<VetoCause> veto;  ///< the risk is above the constraint
-  SampleEvidence last;            ///< the trajectory's end, unless evaluation stopped early
+  double least_distance_m = std::numeric_limits<double>::infinity();  ///< of all samples
+  double largest_prior = 0.0;                                         ///< of all samples
+  SampleEvidence first;                                               ///< the trajectory's start
+  SampleEvidence last;  ///< the trajectory's end, unless evaluation stopped early
 };
 
 /// Judges trajectories by what a snapshot knows. Borrows both arguments.
@@ -81,9 +90,8 @@ class SpaceAhead {
   /// A moment of a trajectory, `elapsed_s` after its start.
   [[nodiscard]] SampleEvidence assess(const Motion& motion_W, double elapsed_s) const;
 
-  /// A whole trajectory, in `samples` steps of equal time. Two samples that are farther apart than the vehicle's radius
-  /// get others between them, at most a radius apart, if the clearance at one is smaller than their distance: else no
-  /// measured point can be nearer to the way between them than half of that distance.
+  /// A whole trajectory, in `samples` steps of equal time, and finer where those are farther apart than the vehicle's
+  /// radius: so that neither a thin obstacle nor a hole as wide as the vehicle falls between two samples.
   /// @param stop_early  stop as soon as the risk is above the constraint
   /// @param evidence    if given, every sample is appended, in the order of evaluation (allocates)
   [[nodiscard]] TrajectoryRisk assess(const Trajectory& trajectory, int samples, bool stop_early,

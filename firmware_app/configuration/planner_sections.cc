@@ -233,11 +233,25 @@ Section headingSection() {
           {}};
 }
 
+Section trackingSection() {
+  return {
+      "tracking",
+      "A vehicle this near to the motion in force is taken to follow it, and the next plan starts from that motion,\n"
+      "so that setpoints have no steps; else the plan starts from the state as measured. 0: always as measured.",
+      {numberKey(
+           "max_position_error_m", "Distance from where it should be.", {0.0, 10.0},
+           [](auto& c) -> auto& { return c.planner.tracking.max_position_error_m; }),
+       numberKey(
+           "max_velocity_error_m_s", "Difference to the velocity that it should have.", {0.0, 100.0},
+           [](auto& c) -> auto& { return c.planner.tracking.max_velocity_error_m_s; })},
+      {}};
+}
+
 }  // namespace
 
 std::vector<Section> plannerSections() {
   return {planningSection(),  limitsSection(), horizonSection(), goalDirectedSection(),
-          objectiveSection(), riskSection(),   headingSection()};
+          objectiveSection(), riskSection(),   headingSection(), trackingSection()};
 }
 
 }  // namespace nanomap

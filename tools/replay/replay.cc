@@ -3,7 +3,7 @@
 #include <chrono>
 #include <thread>
 
-#include "planner/planner.h"
+#include "planner/receding_horizon.h"
 #include "tools/replay/answers.h"
 #include "tools/replay/moment.h"
 
@@ -70,18 +70,18 @@ class Answerer {
 class Decider {
  public:
   Decider(const Configuration& configuration, LogWriter* log, ReplayReport& report)
-      : planner_(configuration.planner), channel_(configuration.lcm.decisions_channel), log_(log), report_(report) {}
+      : horizon_(configuration.planner), channel_(configuration.lcm.decisions_channel), log_(log), report_(report) {}
 
   void decide(const Moment& moment, Time log_stamp) {
     const Clock::time_point start = Clock::now();
-    const Decision decision = planner_.plan(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp);
+    const Decision decision = horizon_.step(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp);
     report_.plan_times.push_back(Clock::now() - start);
     if (log_ != nullptr) log_->write(channel_, log_stamp, toMessage(decision, report_.plans.total()));
     report_.plans.record(decision);
   }
 
  private:
-  Planner planner_;
+  RecedingHorizon horizon_;
   const std::string& channel_;
   LogWriter* log_;
   ReplayReport& report_;

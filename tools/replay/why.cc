@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "planner/planner.h"
+#include "planner/receding_horizon.h"
 #include "tools/replay/explanation_text.h"
 #include "tools/replay/moment.h"
 #include "tools/replay/playback.h"
@@ -13,11 +13,16 @@
 namespace nanomap {
 namespace {
 
-/// Runs on until a plan is due. @return its log time
-Time runToPlan(Playback& playback, Time at) {
+/// Plans on until the plan that is asked about is due: each starts from the one before.
+/// @return its log time; `moment` is what it is made of
+Time runToPlan(Playback& playback, const std::optional<Goal>& other_goal, Time at, RecedingHorizon& horizon,
+               Moment& moment) {
   while (playback.nextStamp()) {
     const Playback::Step step = playback.step();
-    if (step.outcome.views_inserted > 0 && step.log_stamp >= at) return step.log_stamp;
+    if (step.outcome.views_inserted == 0) continue;
+    takeMoment(playback.pipeline(), other_goal, moment);
+    if (step.log_stamp >= at) return step.log_stamp;
+    (void)horizon.step(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp);
   }
   throw std::runtime_error(
       fmt::format("--why: no plan is made {:.3f} s into the log or later: it is {:.3f} s long, and "
@@ -39,11 +44,10 @@ void requireCandidate(const Explanation& explanation, std::uint32_t index) {
 std::string why(LogReader& log, const Configuration& configuration, const ReplayOptions& options,
                 const WhyQuestion& question) {
   Playback playback(log, configuration, options.span);
-  const Time log_stamp = runToPlan(playback, playback.logStart() + question.at);
+  RecedingHorizon horizon(configuration.planner);
   Moment moment;
-  takeMoment(playback.pipeline(), options.goal, moment);
-  const Explanation explanation =
-      Planner(configuration.planner).explain(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp);
+  const Time log_stamp = runToPlan(playback, options.goal, playback.logStart() + question.at, horizon, moment);
+  const Explanation explanation = horizon.explain(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp);
   if (question.candidate) requireCandidate(explanation, *question.candidate);
 
   Text text;

@@ -9,6 +9,7 @@ import numpy as np
 from chain import Chain
 from check_answers import feed
 from evidence import Space
+from in_force import InForce
 from nanomap_log import events, read_channels
 from planner_settings import read_planner_settings
 from planted import PLANTED, plant
@@ -56,6 +57,7 @@ def check(log: Path, decisions: Path, config: Path, overrides: list[str]) -> Out
     settings = read_planner_settings(config, overrides)
     channels = read_channels(config)
     outcome = Outcome()
+    in_force = InForce(settings)
     cameras, poses, points = {}, {}, {}
     tries = Counter()
     told = (event.message for event in events(decisions, channels.decisions()))
@@ -69,14 +71,16 @@ def check(log: Path, decisions: Path, config: Path, overrides: list[str]) -> Out
             raise ValueError(f"{decisions}: ends before the input at log time {event.log_utime} us")
         outcome.decisions += 1
         outcome.reasons[decision.reason] += 1
+        pose = poses[chain.poses.newest.utime]
+        start = in_force.start(pose)
+        in_force.take(decision)
         if not decision.has_brake:
             continue
         outcome.verified += 1
         held = {link.view for link in chain.links}
         points = {view: cloud for view, cloud in points.items() if view in held}
-        pose = poses[chain.poses.newest.utime]
         space = Space(settings, chain.steps(), chain.poses.newest.T_W_B, points)
-        result = verify(decision, pose, space)
+        result = verify(decision, pose, start, space)
         if result.ambiguous:
             outcome.ambiguous += 1
             continue
@@ -85,7 +89,7 @@ def check(log: Path, decisions: Path, config: Path, overrides: list[str]) -> Out
         if not result.faults:
             left = {name for name in PLANTED if name not in outcome.planted and tries[name] < TRIES}
             tries.update(left)
-            outcome.planted |= plant(left, decision, result, pose, space)
+            outcome.planted |= plant(left, decision, result, pose, start, space)
     if next(told, None) is not None:
         raise ValueError(f"{decisions}: goes on behind the log's end")
     return outcome

@@ -59,16 +59,12 @@ class Space:
 
     def on_samples(self, motion: Motion, steps: int) -> Evidence:
         """At the planner's moments: equal steps of time, and finer where neighbours are farther apart than the
-        vehicle's radius and a measured point may be near the way between them (planner/trajectory_risk.h)."""
+        vehicle's radius (planner/trajectory_risk.h)."""
         elapsed = np.linspace(0, motion.duration, steps + 1)
         spacing = np.linalg.norm(np.diff(motion.at(elapsed).position, axis=0), axis=1)
-        coarse = self.on(motion, elapsed, reach_m=spacing.max(initial=0.0))
-        clearance = np.minimum(coarse.nearest[:-1], coarse.nearest[1:]) - self.settings.radius_m
-        fine = [elapsed]
-        for i in np.flatnonzero((clearance < spacing) & (spacing > self.settings.radius_m)):
-            parts = int(np.ceil(spacing[i] / self.settings.radius_m))
-            fine.append(np.linspace(elapsed[i], elapsed[i + 1], parts + 1)[1:-1])
-        return coarse if len(fine) == 1 else self.on(motion, np.sort(np.concatenate(fine)))
+        parts = np.maximum(np.ceil(spacing / self.settings.radius_m).astype(int), 1)
+        between = [np.linspace(begin, end, n + 1)[1:-1] for begin, end, n in zip(elapsed[:-1], elapsed[1:], parts)]
+        return self.on(motion, np.sort(np.concatenate([elapsed, *between])))
 
     def _covariance_B(self, states: States, elapsed: np.ndarray) -> np.ndarray:
         speed = np.linalg.norm(states.velocity, axis=1)

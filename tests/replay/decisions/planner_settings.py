@@ -39,6 +39,8 @@ class PlannerSettings:
     horizontal: Deviation
     vertical: Deviation
     prior: np.ndarray  # by Status
+    max_position_error_m: float
+    max_velocity_error_m_s: float
 
     def horizontal_limit_m_s2(self, speed_m_s: float) -> float:
         return float(np.interp(speed_m_s, [0, self.full_speed_m_s],
@@ -51,8 +53,8 @@ class PlannerSettings:
 
 def read_planner_settings(path: Path, overrides: list[str]) -> PlannerSettings:
     document = read_document(path, overrides)
-    vehicle, planner, limits, horizon, risk = (
-        document[section] for section in ("vehicle", "planner", "limits", "horizon", "risk"))
+    vehicle, planner, limits, horizon, risk, tracking = (
+        document[section] for section in ("vehicle", "planner", "limits", "horizon", "risk", "tracking"))
     if planner["stop_check"] != "verified" or risk["collision_model"] != "ball":
         raise ValueError(f"{path}: the check knows stop_check = verified and collision_model = ball only")
     return PlannerSettings(
@@ -73,4 +75,6 @@ def read_planner_settings(path: Path, overrides: list[str]) -> PlannerSettings:
         horizontal=Deviation(*(risk[f"horizontal_{key}"] for key in ("base_m", "per_speed_s", "per_time_m_s"))),
         vertical=Deviation(*(risk[f"vertical_{key}"] for key in ("base_m", "per_speed_s", "per_time_m_s"))),
         prior=np.array([risk[f"prior_{status.name.lower()}"] for status in Status], dtype=float),
+        max_position_error_m=tracking["max_position_error_m"],
+        max_velocity_error_m_s=tracking["max_velocity_error_m_s"],
     )

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from evidence import Space
+from in_force import Start
 from motion import Motion
 from nanomap_log import Status
 from verify import BRAKE, Fault, Verified, verify
@@ -103,12 +104,12 @@ PLANTED = {
 }
 
 
-def plant(names: set[str], decision, verified: Verified, pose, space: Space) -> dict[str, bool]:
+def plant(names: set[str], decision, verified: Verified, pose, start: Start, space: Space) -> dict[str, bool]:
     """Of those faults that the right decision can carry: whether the check sees them."""
     seen = {}
     for name in sorted(names):
         fault, change = PLANTED[name]
         mutant = change(decision, verified, space)
         if mutant is not None:
-            seen[name] = any(found == fault for found, _ in verify(mutant, pose, space).faults)
+            seen[name] = any(found == fault for found, _ in verify(mutant, pose, start, space).faults)
     return seen

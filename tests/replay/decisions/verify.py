@@ -11,6 +11,7 @@ from enum import StrEnum
 
 import numpy as np
 from evidence import Evidence, Space
+from in_force import Start
 from motion import Motion
 from nanomap_log import Status
 
@@ -55,11 +56,11 @@ class Verified:
     ambiguous: bool = False  # a status behind one of the faults hangs on rounding
 
 
-def verify(decision, pose, space: Space) -> Verified:
-    """`pose` is the body_pose_t message that the decision starts from."""
+def verify(decision, pose, start: Start, space: Space) -> Verified:
+    """`pose` is the body_pose_t message that the decision consumed, `start` what its motions begin with."""
     result = Verified()
     trajectory, brake = Motion(decision.trajectory), Motion(decision.brake)
-    _verify_motions(decision, pose, trajectory, brake, space.settings, result.faults)
+    _verify_motions(decision, pose, start, trajectory, brake, space.settings, result.faults)
     result.exact_risk = _verify_risk("motion", trajectory, space.settings.samples, decision.risk, space, result)[0]
     steps = space.settings.samples if decision.primitive == BRAKE else space.settings.brake_samples
     result.exact_brake_risk, samples = _verify_risk("brake", brake, steps, decision.brake_risk, space, result)
@@ -69,7 +70,8 @@ def verify(decision, pose, space: Space) -> Verified:
     return result
 
 
-def _verify_motions(decision, pose, trajectory: Motion, brake: Motion, settings, faults: list) -> None:
+def _verify_motions(decision, pose, start: Start, trajectory: Motion, brake: Motion, settings,
+                    faults: list) -> None:
     def add(fault: Fault, detail: str):
         faults.append((fault, detail))
 
@@ -78,14 +80,14 @@ def _verify_motions(decision, pose, trajectory: Motion, brake: Motion, settings,
         add(Fault.CONSUMED, f"stamp, pose and epoch {told}, not {(pose.utime, pose.sequence, pose.epoch)}")
     for name, motion in (("motion", trajectory), ("brake", brake)):
         begin = motion.boundaries()
-        if motion.utime != pose.utime or not _close(begin.position[0], pose.world_from_body.translation):
+        if motion.utime != pose.utime or not _close(begin.position[0], start.position):
             add(Fault.START, f"{name}: {motion.utime} us at {begin.position[0]}")
-        for told, sent in ((begin.velocity[0], pose.velocity), (begin.acceleration[0], pose.acceleration)):
+        for told, sent in ((begin.velocity[0], start.velocity), (begin.acceleration[0], start.acceleration)):
             if np.all(np.isfinite(sent)) and not _close(told, sent):
                 add(Fault.START, f"{name}: {told} instead of {sent}")
 
-    start, end = trajectory.boundaries(), brake.boundaries()
-    speed = float(np.linalg.norm(start.velocity[0]))
+    end = brake.boundaries()
+    speed = float(np.linalg.norm(trajectory.boundaries().velocity[0]))
     full, vertical = settings.horizontal_at_full_m_s2, settings.vertical_m_s2
     if decision.primitive != BRAKE:
         horizontal = settings.horizontal_limit_m_s2(speed)

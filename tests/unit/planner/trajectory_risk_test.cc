@@ -90,7 +90,7 @@ TEST(SpaceAhead, SamplesAreInsertedWhereSomethingIsNear) {
   const Seen empty(DrawnWorld{});
   evidence.clear();
   (void)empty.space().assess(straight({1.0, 0.0, 0.0}), 2, false, &evidence);
-  EXPECT_EQ(evidence.size(), 3U) << "nothing near: none inserted";
+  EXPECT_EQ(evidence.size(), 7U) << "two steps of a metre, each in parts of at most 0.4 m";
 }
 
 TEST(SpaceAhead, RiskIsThatOfIndependentSamples) {
@@ -99,8 +99,8 @@ TEST(SpaceAhead, RiskIsThatOfIndependentSamples) {
   parameters.prior.fill(0.1);
   parameters.bubble_margin_m = 0.0;
   const SpaceAhead space(seen.flight.snapshot(), parameters);
-  const TrajectoryRisk risk = space.assess(straight({2.4, 0.0, 0.0}), 4, false);
-  EXPECT_NEAR(risk.risk, 1.0 - std::pow(0.9, 4), 1e-12) << "four outside of the bubble";
+  const TrajectoryRisk risk = space.assess(straight({2.4, 0.0, 0.0}), 16, false);
+  EXPECT_NEAR(risk.risk, 1.0 - std::pow(0.9, 15), 1e-12) << "all but the start and 0.3 m are outside of the bubble";
 }
 
 /// Half-space risk of a plane depends on the deviation along its normal alone: of the ground, on the vertical one,
