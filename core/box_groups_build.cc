@@ -320,7 +320,10 @@ class GroupWriter {
     const auto append = [&](const BoxLanes& from, TileSet tiles) {
       if (tiles == 0) return;
       for (std::size_t first = 0; first < kBlockTiles; first += kFloatLanes) {
-        to += hn::CompressStore(hn::Load(d, &from[first]), maskOf(tiles, first), d, to);
+        // Whole vectors, not CompressStore: what a masked store has written is slow to be read back.
+        const auto mask = maskOf(tiles, first);
+        hn::StoreU(hn::Compress(hn::Load(d, &from[first]), mask), d, to);
+        to += hn::CountTrue(d, mask);
       }
     };
     append(near, chosen.near);
@@ -343,7 +346,7 @@ class GroupWriter {
   }
 
   BoxGroups& out_;
-  alignas(64) std::array<float, 2 * kGroupBoxes + kFloatLanes> lanes_{};  ///< CompressStore may write past the last
+  alignas(64) std::array<float, 2 * kGroupBoxes + kFloatLanes> lanes_{};  ///< a vector may be written past the last
 };
 
 /// Groups a block's boxes by depth, so that no group spans both a near thing and what is behind it.

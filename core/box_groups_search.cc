@@ -41,51 +41,105 @@ HWY_INLINE std::uint32_t bitsOf(Mask mask) {
 
 HWY_INLINE float leastLane(FloatVec v) { return hn::GetLane(hn::MinOfLanes(FloatTag(), v)); }
 
-/// The first lane of `v` that equals `value`. @pre there is one
-HWY_INLINE std::size_t laneOf(FloatVec v, float value) {
-  const FloatTag d;
-  return static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(v, hn::Set(d, value))));
+alignas(64) constexpr std::array<std::int32_t, kGroupBoxes> kCounting = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                                         8, 9, 10, 11, 12, 13, 14, 15};
+
+/// first, first + 1, ...
+HWY_INLINE IndexVec countingFrom(std::size_t first) {
+  const IndexTag di;
+  return hn::Add(hn::Load(di, kCounting.data()), hn::Set(di, static_cast<std::int32_t>(first)));
 }
 
-/// Boxes, or groups, that may hold something near enough, with how near that can be at best.
+/// Which of up to `kPlaces` distances is least, near enough: the low bits of a distance make room for its place, so
+/// that one minimum finds both.
+template <std::int32_t kPlaces>
+class LeastPlace {
+  static_assert((kPlaces & (kPlaces - 1)) == 0);
+
+ public:
+  HWY_INLINE LeastPlace() : keys_(hn::Set(IndexTag(), std::numeric_limits<std::int32_t>::max())) {}
+
+  /// @param distance_sq_m2  of the places from `first` on
+  HWY_INLINE void add(FloatVec distance_sq_m2, std::size_t first) {
+    const IndexTag di;
+    const IndexVec rounded = hn::And(hn::BitCast(di, distance_sq_m2), hn::Set(di, ~(kPlaces - 1)));
+    keys_ = hn::Min(keys_, hn::Or(rounded, countingFrom(first)));
+  }
+
+  /// At most the least distance added, and less by a few bits.
+  [[nodiscard]] HWY_INLINE float bound() const { return std::bit_cast<float>(leastKey() & ~(kPlaces - 1)); }
+  [[nodiscard]] HWY_INLINE std::size_t place() const { return static_cast<std::size_t>(leastKey() & (kPlaces - 1)); }
+
+ private:
+  [[nodiscard]] HWY_INLINE std::int32_t leastKey() const { return hn::GetLane(hn::MinOfLanes(IndexTag(), keys_)); }
+
+  IndexVec keys_;
+};
+
+/// Boxes that may hold something near enough, with how near that can be at best.
 class Candidates {
  public:
   static constexpr std::size_t kCapacity = 256;
 
-  /// Those of the vector's lanes in `chosen`; lane i is called `first + i`. @pre there is room for a vector
-  HWY_INLINE void append(FloatVec least_sq_m2, hn::Mask<FloatTag> chosen, std::uint32_t first) {
+  /// The boxes of a group in the lanes from `first` on that are in `chosen`. @pre there is room for a vector
+  HWY_INLINE void append(const BoxGroup& group, std::size_t first, FloatVec least_sq_m2, hn::Mask<FloatTag> chosen) {
     const FloatTag d;
     const IndexTag di;
-    const auto names = hn::BitCast(d, hn::Iota(di, static_cast<std::int32_t>(first)));
-    hn::CompressStore(names, chosen, d, names_.data() + size_);
-    size_ += hn::CompressStore(least_sq_m2, chosen, d, least_sq_m2_.data() + size_);
+    const IndexVec raw_low = hn::PromoteTo(di, hn::Load(RawTag(), &group.raw_low[first]));
+    const IndexVec raw_high = hn::PromoteTo(di, hn::Load(RawTag(), &group.raw_high[first]));
+    const IndexVec raw = hn::Or(raw_low, hn::ShiftLeft<16>(raw_high));
+    const FloatVec tile = hn::BitCast(d, hn::Load(hn::RebindToUnsigned<FloatTag>(), &group.tile[first]));
+    // Whole vectors, not CompressStore: what a masked store has written is slow to be read back.
+    hn::StoreU(hn::Compress(tile, chosen), d, tiles_.data() + size_);
+    hn::StoreU(hn::Compress(hn::BitCast(d, raw), chosen), d, raw_.data() + size_);
+    hn::StoreU(hn::Compress(least_sq_m2, chosen), d, least_sq_m2_.data() + size_);
+    size_ += hn::CountTrue(d, chosen);
   }
 
   [[nodiscard]] bool hasRoomForGroup() const { return size_ + kGroupBoxes <= kCapacity; }
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] float least(std::size_t i) const { return least_sq_m2_[i]; }
-  [[nodiscard]] std::uint32_t name(std::size_t i) const { return std::bit_cast<std::uint32_t>(names_[i]); }
-  void clear() { size_ = 0; }
 
-  /// Where the nearest stands. @pre not empty
-  [[nodiscard]] std::size_t nearest() {
+  /// Visits the nearest, if it is within reach, and takes it out of consideration.
+  template <class Visit>
+  HWY_INLINE void visitNearest(float reach_sq_m2, Visit visit) {
     const FloatTag d;
     hn::StoreU(hn::Set(d, kInfinity), d, &least_sq_m2_[size_]);
-    FloatVec least = hn::Load(d, least_sq_m2_.data());
-    for (std::size_t i = kLanes; i < size_; i += kLanes) least = hn::Min(least, hn::Load(d, &least_sq_m2_[i]));
-    const float value = leastLane(least);
-    std::size_t i = 0;
-    while (hn::AllFalse(d, hn::Eq(hn::Load(d, &least_sq_m2_[i]), hn::Set(d, value)))) i += kLanes;
-    return i + laneOf(hn::Load(d, &least_sq_m2_[i]), value);
+    LeastPlace<kCapacity> nearest;
+    for (std::size_t i = 0; i < size_; i += kLanes) nearest.add(hn::Load(d, &least_sq_m2_[i]), i);
+    if (!(nearest.bound() <= reach_sq_m2)) return;
+    const std::size_t i = nearest.place();
+    least_sq_m2_[i] = kInfinity;
+    visitAt(i, visit);
   }
 
-  /// Takes it out of consideration.
-  void strike(std::size_t i) { least_sq_m2_[i] = kInfinity; }
+  /// Visits, in no order, what is within reach when its turn comes; none is left.
+  template <class Reach, class Visit>
+  HWY_INLINE void visitAll(Reach reach_sq_m2, Visit visit) {
+    const FloatTag d;
+    hn::StoreU(hn::Set(d, kInfinity), d, &least_sq_m2_[size_]);
+    for (std::size_t first = 0; first < size_; first += kLanes) {
+      std::uint32_t near = bitsOf(hn::Le(hn::Load(d, &least_sq_m2_[first]), hn::Set(d, reach_sq_m2())));
+      for (; near != 0; near &= near - 1) {
+        const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(near));
+        if (least_sq_m2_[i] <= reach_sq_m2()) visitAt(i, visit);
+      }
+    }
+    size_ = 0;
+  }
 
  private:
-  // CompressStore may write a vector past the last.
-  alignas(64) std::array<float, kCapacity + kGroupBoxes> least_sq_m2_;
-  alignas(64) std::array<float, kCapacity + kGroupBoxes> names_;
+  template <class Visit>
+  HWY_INLINE void visitAt(std::size_t i, Visit visit) {
+    const auto raw = std::bit_cast<std::uint32_t>(raw_[i]);
+    visit(std::bit_cast<std::uint32_t>(tiles_[i]), static_cast<std::int32_t>(raw & 0xFFFFU),
+          static_cast<std::int32_t>(raw >> 16));
+  }
+
+  // A vector may be written past the last. All columns hold bits of floats, whatever they mean.
+  using Column = std::array<float, kCapacity + kGroupBoxes>;
+  alignas(64) Column least_sq_m2_;
+  alignas(64) Column tiles_;
+  alignas(64) Column raw_;  ///< raw_low, and raw_high above it
   std::size_t size_ = 0;
 };
 
@@ -106,33 +160,55 @@ struct alignas(64) TileDistances {
   }
 };
 
-/// The k nearest pixels of a single k: one.
+/// The nearest pixel. Lanes keep a nearest one each, so that one tile need not wait for what the last one gave; the
+/// reach follows a few tiles later.
 class NearestOne {
  public:
-  explicit NearestOne(float limit_sq_m2) : found_{limit_sq_m2, std::numeric_limits<std::uint32_t>::max()} {}
+  HWY_INLINE explicit NearestOne(float limit_sq_m2)
+      : distance_sq_m2_(hn::Set(FloatTag(), limit_sq_m2)),
+        pixel_(hn::Set(IndexTag(), kNoPixel)),
+        reach_sq_m2_(limit_sq_m2) {}
 
-  /// Nothing farther can be among the nearest; at this distance a pixel with a lower number can.
-  [[nodiscard]] float reach() const { return found_.distance_sq_m2; }
+  /// Nothing farther can be the nearest; at this distance a pixel with a lower number can.
+  [[nodiscard]] float reach() const { return reach_sq_m2_; }
 
-  /// @param least  the least distances in the tile, by lanes. @pre one of them is within reach
-  HWY_INLINE void add(std::uint32_t first_pixel, const TileDistances& distances, FloatVec least) {
-    const float value = leastLane(least);
-    std::uint32_t place = 0;
-    const FloatVec sought = hn::Set(FloatTag(), value);
-    std::uint32_t lanes = 0;
-    while ((lanes = bitsOf(hn::Eq(distances.vector(place), sought))) == 0) place += static_cast<std::uint32_t>(kLanes);
-    const std::uint32_t pixel = first_pixel + place + static_cast<std::uint32_t>(std::countr_zero(lanes));
-    if (value < found_.distance_sq_m2 || pixel < found_.pixel) found_ = {value, pixel};
+  HWY_INLINE void refreshReach() { reach_sq_m2_ = leastLane(distance_sq_m2_); }
+
+  /// @param distanceAt  squared distances of the tile's pixels from a place on
+  template <class DistanceAt>
+  HWY_INLINE void addTile(std::uint32_t first_pixel, DistanceAt distanceAt) {
+    const FloatTag d;
+    const IndexTag di;
+    for (std::size_t i = 0; i < kTilePixels; i += kLanes) {
+      const FloatVec distance = distanceAt(i);
+      const IndexVec pixel = countingFrom(first_pixel + i);
+      const auto equal_and_before =
+          hn::And(hn::Eq(distance, distance_sq_m2_), hn::RebindMask(d, hn::Lt(pixel, pixel_)));
+      const auto better = hn::Or(hn::Lt(distance, distance_sq_m2_), equal_and_before);
+      distance_sq_m2_ = hn::IfThenElse(better, distance, distance_sq_m2_);
+      pixel_ = hn::IfThenElse(hn::RebindMask(di, better), pixel, pixel_);
+    }
+    constexpr unsigned kTilesPerRefresh = 4;
+    if (++tiles_ % kTilesPerRefresh == 0) refreshReach();
   }
 
   std::size_t copyTo(std::span<FoundPixel> out) const {
-    if (found_.pixel == std::numeric_limits<std::uint32_t>::max()) return 0;
-    out[0] = found_;
+    const float least = leastLane(distance_sq_m2_);
+    const auto at_least = hn::RebindMask(IndexTag(), hn::Eq(distance_sq_m2_, hn::Set(FloatTag(), least)));
+    const IndexVec pixels = hn::IfThenElse(at_least, pixel_, hn::Set(IndexTag(), kNoPixel));
+    const std::int32_t pixel = hn::GetLane(hn::MinOfLanes(IndexTag(), pixels));
+    if (pixel == kNoPixel) return 0;
+    out[0] = {least, static_cast<std::uint32_t>(pixel)};
     return 1;
   }
 
  private:
-  FoundPixel found_;
+  static constexpr std::int32_t kNoPixel = std::numeric_limits<std::int32_t>::max();
+
+  FloatVec distance_sq_m2_;
+  IndexVec pixel_;
+  float reach_sq_m2_;
+  unsigned tiles_ = 0;
 };
 
 /// The k nearest pixels for any k up to kMaxNeighbours.
@@ -142,7 +218,20 @@ class NearestMany {
 
   [[nodiscard]] float reach() const { return distanceOf(keys_[k_ - 1]); }
 
-  HWY_INLINE void add(std::uint32_t first_pixel, const TileDistances& distances, FloatVec /*least*/) {
+  void refreshReach() {}  // always fresh
+
+  /// @param distanceAt  squared distances of the tile's pixels from a place on
+  template <class DistanceAt>
+  HWY_INLINE void addTile(std::uint32_t first_pixel, DistanceAt distanceAt) {
+    const FloatTag d;
+    TileDistances distances;
+    FloatVec least = hn::Set(d, kInfinity);
+    for (std::size_t i = 0; i < kTilePixels; i += kLanes) {
+      const FloatVec distance = distanceAt(i);
+      hn::Store(distance, d, &distances.sq_m2[i]);
+      least = hn::Min(least, distance);
+    }
+    if (hn::AllFalse(d, hn::Le(least, hn::Set(d, reach())))) return;
     std::uint64_t places = distances.within(reach());
     if (static_cast<std::size_t>(std::popcount(places)) > k_) places &= distances.within(kthOfLanes(distances));
     for (; places != 0; places &= places - 1) {
@@ -245,120 +334,77 @@ class Search {
 
   void sweep(std::size_t first, std::size_t end) {
     const FloatTag d;
-    const IndexTag di;
     alignas(64) std::array<float, kSweep> group_least;
-    FloatVec least = hn::Set(d, kInfinity);
-    IndexVec at = hn::Zero(di);
+    LeastPlace<kSweep> nearest;
     for (std::size_t group = first; group < end; group += kLanes) {
       const FloatVec distance = leastDistance(indexed_.boxes.bounds[group / kGroupBoxes], group % kGroupBoxes);
       hn::Store(distance, d, &group_least[group - first]);
-      const auto nearer = hn::Lt(distance, least);
-      least = hn::Min(least, distance);
-      at = hn::IfThenElse(hn::RebindMask(di, nearer), hn::Set(di, static_cast<std::int32_t>(group)), at);
+      nearest.add(distance, group - first);
     }
-    const float nearest_group_sq_m2 = leastLane(least);
-    if (!(nearest_group_sq_m2 <= nearest_.reach()) || nearest_group_sq_m2 == kInfinity) return;
+    if (!(nearest.bound() <= nearest_.reach())) return;
 
-    // The nearest box of the nearest group first: it sets the reach.
-    const std::size_t lane = laneOf(least, nearest_group_sq_m2);
-    alignas(64) std::array<std::int32_t, kLanes> lanes_at;
-    hn::Store(at, di, lanes_at.data());
-    const std::uint32_t seed = nearestBoxOf(static_cast<std::size_t>(lanes_at[lane]) + lane);
-    visit(seed);
+    // The nearest group's two nearest boxes bring the reach down before any other group is opened.
+    const auto reach = [this] { return nearest_.reach(); };
+    const auto visit = [this](std::uint32_t tile, std::int32_t raw_low, std::int32_t raw_high) {
+      this->visit(tile, raw_low, raw_high);
+    };
+    const auto visit_nearest = [&] {
+      candidates_.visitNearest(reach(), visit);
+      nearest_.refreshReach();
+    };
+    expand(first + nearest.place());
+    group_least[nearest.place()] = kInfinity;
+    for (int i = 0; i < 2; ++i) visit_nearest();
 
     for (std::size_t group = first; group < end; group += kLanes) {
       const FloatVec distance = hn::Load(d, &group_least[group - first]);
-      std::uint32_t near = bitsOf(hn::Le(distance, hn::Set(d, nearest_.reach())));
+      std::uint32_t near = bitsOf(hn::Le(distance, hn::Set(d, reach())));
       for (; near != 0; near &= near - 1) {
         expand(group + static_cast<std::size_t>(std::countr_zero(near)));
-        if (!candidates_.hasRoomForGroup()) visitCandidates(seed);
+        if (!candidates_.hasRoomForGroup()) candidates_.visitAll(reach, visit);
       }
     }
-    visitCandidates(seed);
-  }
-
-  [[nodiscard]] std::uint32_t nearestBoxOf(std::size_t group) const {
-    const FloatTag d;
-    const BoxBounds& boxes = indexed_.boxes.groups[group].bounds;
-    alignas(64) BoxLanes distances;
-    FloatVec least = hn::Set(d, kInfinity);
-    for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
-      const FloatVec distance = leastDistance(boxes, i);
-      hn::Store(distance, d, &distances[i]);
-      least = hn::Min(least, distance);
-    }
-    const float value = leastLane(least);
-    std::size_t i = 0;
-    while (hn::AllFalse(d, hn::Eq(hn::Load(d, &distances[i]), hn::Set(d, value)))) i += kLanes;
-    return static_cast<std::uint32_t>(group * kGroupBoxes + i + laneOf(hn::Load(d, &distances[i]), value));
+    constexpr std::size_t kWorthOrdering = 4;
+    if (candidates_.size() > kWorthOrdering) visit_nearest();
+    candidates_.visitAll(reach, visit);
   }
 
   /// Adds a group's boxes within reach to the candidates.
   HWY_INLINE void expand(std::size_t group) {
     const FloatTag d;
-    const BoxBounds& boxes = indexed_.boxes.groups[group].bounds;
+    const BoxGroup& boxes = indexed_.boxes.groups[group];
     const FloatVec reach = hn::Set(d, nearest_.reach());
     for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
-      const FloatVec distance = leastDistance(boxes, i);
-      candidates_.append(distance, hn::Le(distance, reach), static_cast<std::uint32_t>(group * kGroupBoxes + i));
+      const FloatVec distance = leastDistance(boxes.bounds, i);
+      candidates_.append(boxes, i, distance, hn::Le(distance, reach));
     }
   }
 
-  /// Visits the candidates, the nearest one first, but not the box `seed`, which has been.
-  void visitCandidates(std::uint32_t seed) {
-    constexpr std::size_t kWorthOrdering = 4;
-    for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      if (candidates_.name(i) == seed) candidates_.strike(i);
-    }
-    if (candidates_.size() > kWorthOrdering) {
-      const std::size_t i = candidates_.nearest();
-      if (candidates_.least(i) <= nearest_.reach()) visit(candidates_.name(i));
-      candidates_.strike(i);
-    }
-    for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      if (candidates_.least(i) <= nearest_.reach()) visit(candidates_.name(i));
-    }
-    candidates_.clear();
-  }
-
-  /// Looks at all pixels of a box: group * kGroupBoxes + lane.
-  HWY_INLINE void visit(std::uint32_t box) {
-    const BoxGroup& group = indexed_.boxes.groups[box / kGroupBoxes];
-    const std::size_t lane = box % kGroupBoxes;
-    const std::uint32_t tile = group.tile[lane];
-    const FloatTag d;
-    const FloatVec least = measure(tile, group.raw_low[lane], group.raw_high[lane]);
-    if (hn::AllFalse(d, hn::Le(least, hn::Set(d, nearest_.reach())))) return;
-    nearest_.add(tile * static_cast<std::uint32_t>(kTilePixels), distances_, least);
-  }
-
-  /// Fills distances_ for the tile's pixels with raw depths in `low` .. `high`. @return their least, by lanes
-  HWY_INLINE FloatVec measure(std::uint32_t tile, std::uint16_t low, std::uint16_t high) {
+  /// Looks at the tile's pixels with raw depths in `low` .. `high`.
+  HWY_INLINE void visit(std::uint32_t tile, std::int32_t low, std::int32_t high) {
     const FloatTag d;
     const IndexTag di;
     const PixelTile& pixels = indexed_.image.tiles()[tile];
     const TangentTile& x = indexed_.rays.x(tile);
     const TangentTile& y = indexed_.rays.y(tile);
     const FloatVec unit = hn::Set(d, indexed_.depth_unit_m);
+    const FloatVec p_x = x_;  // copies, which nothing that is stored meanwhile can change
+    const FloatVec p_y = y_;
+    const FloatVec p_z = z_;
+    const std::span<const std::uint16_t> excluded = indexed_.in_range.excluded;
     const IndexVec below = hn::Set(di, low - 1);
     const IndexVec above = hn::Set(di, high + 1);
-    FloatVec least = hn::Set(d, kInfinity);
-    for (std::size_t i = 0; i < kTilePixels; i += kLanes) {
+    nearest_.addTile(tile * static_cast<std::uint32_t>(kTilePixels), [&](std::size_t i) {
       const IndexVec raw = hn::PromoteTo(di, hn::Load(RawTag(), &pixels.raw[i]));
       auto counts = hn::And(hn::Gt(raw, below), hn::Lt(raw, above));
-      for (const std::uint16_t value : indexed_.in_range.excluded) {
-        counts = hn::AndNot(hn::Eq(raw, hn::Set(di, value)), counts);
-      }
+      for (const std::uint16_t value : excluded) counts = hn::AndNot(hn::Eq(raw, hn::Set(di, value)), counts);
       const FloatVec z = hn::Mul(hn::ConvertTo(d, raw), unit);
-      const FloatVec dx = hn::Sub(x_, hn::Mul(hn::Load(d, &x.tangents[i]), z));
-      const FloatVec dy = hn::Sub(y_, hn::Mul(hn::Load(d, &y.tangents[i]), z));
-      const FloatVec dz = hn::Sub(z_, z);
+      const FloatVec dx = hn::Sub(p_x, hn::Mul(hn::Load(d, &x.tangents[i]), z));
+      const FloatVec dy = hn::Sub(p_y, hn::Mul(hn::Load(d, &y.tangents[i]), z));
+      const FloatVec dz = hn::Sub(p_z, z);
       const FloatVec sq = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-      const FloatVec distance = hn::IfThenElse(hn::RebindMask(d, counts), sq, hn::Set(d, kInfinity));
-      hn::Store(distance, d, &distances_.sq_m2[i]);
-      least = hn::Min(least, distance);
-    }
-    return least;
+      return hn::IfThenElse(hn::RebindMask(d, counts), sq, hn::Set(d, kInfinity));
+    });
   }
 
   const IndexedImage& indexed_;
@@ -367,16 +413,17 @@ class Search {
   FloatVec z_;
   Nearest& nearest_;
   Candidates candidates_;
-  TileDistances distances_;
 };
 
 std::size_t find(const IndexedImage& indexed, const Vec3f& p_C, float limit_sq_m2, std::span<FoundPixel> out) {
-  const auto run = [&](auto nearest) {
-    Search search(indexed, p_C, nearest);
-    search.run();
+  if (out.size() == 1) {
+    NearestOne nearest(limit_sq_m2);
+    Search(indexed, p_C, nearest).run();
     return nearest.copyTo(out);
-  };
-  return out.size() == 1 ? run(NearestOne(limit_sq_m2)) : run(NearestMany(limit_sq_m2, out.size()));
+  }
+  NearestMany nearest(limit_sq_m2, out.size());
+  Search(indexed, p_C, nearest).run();
+  return nearest.copyTo(out);
 }
 
 }  // namespace nanomap::HWY_NAMESPACE

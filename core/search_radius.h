@@ -1,6 +1,8 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -11,10 +13,13 @@ namespace nanomap {
 [[nodiscard]] inline std::optional<float> greatestSquareWithin(float radius_m) {
   if (!(radius_m >= 0.0F)) return std::nullopt;
   constexpr float kMost = std::numeric_limits<float>::max();
-  const auto above = [](float square) { return std::nextafter(square, std::numeric_limits<float>::infinity()); };
-  float square = std::fmin(radius_m * radius_m, kMost);
-  while (std::sqrt(square) > radius_m) square = std::nextafter(square, 0.0F);
-  while (square < kMost && std::sqrt(above(square)) <= radius_m) square = above(square);
+  if (radius_m * radius_m >= kMost) return kMost;
+  // Neighbours among floats that are not negative: their bits count upwards.
+  const auto next = [](float square) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(square) + 1); };
+  const auto previous = [](float square) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(square) - 1); };
+  float square = radius_m * radius_m;
+  while (std::sqrt(square) > radius_m) square = previous(square);
+  while (std::sqrt(next(square)) <= radius_m) square = next(square);
   return square;
 }
 
