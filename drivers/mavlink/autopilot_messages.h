@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/geometry.h"
+
+/// What this driver reads of the autopilot's messages, as they say it.
+namespace nanomap {
+
+struct HeartbeatMessage {
+  std::uint8_t autopilot = 0;  ///< MAV_AUTOPILOT
+  std::uint8_t base_mode = 0;  ///< MAV_MODE_FLAG
+  std::uint32_t custom_mode = 0;
+};
+
+struct LocalPositionMessage {
+  std::uint32_t time_boot_ms = 0;
+  Vec3 position_NED_m = Vec3::Zero();
+  Vec3 velocity_NED_m_s = Vec3::Zero();
+};
+
+struct AttitudeMessage {
+  std::uint32_t time_boot_ms = 0;
+  Quat R_NED_FRD = Quat::Identity();
+};
+
+struct LandedStateMessage {
+  std::uint8_t landed_state = 0;  ///< MAV_LANDED_STATE
+};
+
+}  // namespace nanomap

@@ -1,0 +1,126 @@
+#include "drivers/mavlink/autopilot_monitor.h"
+
+#include <chrono>
+#include <cstdlib>
+
+#include "core/level_frame.h"
+
+namespace nanomap {
+namespace {
+
+constexpr std::size_t kPoseCapacity = 64;  // more than a second of them at 50 Hz
+
+AutopilotKind kindOf(std::uint8_t mav_autopilot) {
+  constexpr std::uint8_t kArduPilotMega = 3;
+  constexpr std::uint8_t kPx4 = 12;
+  if (mav_autopilot == kPx4) return AutopilotKind::kPx4;
+  return mav_autopilot == kArduPilotMega ? AutopilotKind::kArduPilot : AutopilotKind::kOther;
+}
+
+/// The mode in which the autopilot obeys setpoints. ArduPilot numbers modes by vehicle: these are a copter's.
+bool isExternalControl(AutopilotKind kind, std::uint8_t base_mode, std::uint32_t custom_mode) {
+  constexpr std::uint8_t kCustomModeEnabled = 1;
+  constexpr std::uint32_t kPx4MainModeShift = 16;
+  constexpr std::uint32_t kPx4MainModeMask = 0xFF;
+  constexpr std::uint32_t kPx4Offboard = 6;
+  constexpr std::uint32_t kCopterGuided = 4;
+  if ((base_mode & kCustomModeEnabled) == 0) return false;
+  if (kind == AutopilotKind::kPx4) return ((custom_mode >> kPx4MainModeShift) & kPx4MainModeMask) == kPx4Offboard;
+  return kind == AutopilotKind::kArduPilot && custom_mode == kCopterGuided;
+}
+
+LandedState landedStateOf(std::uint8_t mav_landed_state) {
+  switch (mav_landed_state) {
+    case 1:
+      return LandedState::kOnGround;
+    case 2:
+      return LandedState::kInAir;
+    case 3:
+      return LandedState::kTakingOff;
+    case 4:
+      return LandedState::kLanding;
+    default:
+      return LandedState::kUnknown;
+  }
+}
+
+std::optional<Duration> ageOf(const std::optional<Time>& arrival, Time now) {
+  if (!arrival) return std::nullopt;
+  return now - *arrival;
+}
+
+}  // namespace
+
+std::string_view toString(AutopilotKind kind) {
+  switch (kind) {
+    case AutopilotKind::kUnknown:
+      return "none";
+    case AutopilotKind::kPx4:
+      return "PX4";
+    case AutopilotKind::kArduPilot:
+      return "ArduPilot";
+    case AutopilotKind::kOther:
+      return "neither PX4 nor ArduPilot";
+  }
+  return "?";
+}
+
+AutopilotMonitor::AutopilotMonitor(Duration heartbeat_timeout)
+    : heartbeat_timeout_(heartbeat_timeout), poses_(kPoseCapacity) {}
+
+void AutopilotMonitor::receive(const HeartbeatMessage& message, Time arrival) {
+  constexpr std::uint8_t kArmed = 128;
+  const bool had_other_mode = state(arrival).linked && !last_.external_control;
+  last_.kind = kindOf(message.autopilot);
+  last_.armed = (message.base_mode & kArmed) != 0;
+  last_.custom_mode = message.custom_mode;
+  last_.external_control = isExternalControl(last_.kind, message.base_mode, message.custom_mode);
+  if (had_other_mode && last_.external_control) ++last_.external_control_entries;
+  heartbeat_arrival_ = arrival;
+}
+
+void AutopilotMonitor::receive(const LocalPositionMessage& message, Time arrival) {
+  // A vehicle that turns at 1 rad/s is 3 degrees off by then.
+  constexpr Duration kMaxApart = std::chrono::milliseconds(50);
+  position_arrival_ = arrival;
+  const Time stamp = clock_.toOurs(message.time_boot_ms, arrival);
+  if (!heading_ || std::chrono::abs(std::chrono::milliseconds(
+                       static_cast<std::int32_t>(message.time_boot_ms - heading_->time_boot_ms))) > kMaxApart) {
+    ++counters_.poses_unmatched;
+    return;
+  }
+  if (poses_.full()) {
+    poses_.popFront();
+    ++counters_.poses_dropped;
+  }
+  poses_.pushBack({stamp, message.position_NED_m, heading_->heading_rad});
+  ++counters_.poses;
+}
+
+void AutopilotMonitor::receive(const AttitudeMessage& message, Time arrival) {
+  attitude_arrival_ = arrival;
+  // The forward axis, from north towards east: the same formula gives the heading that gives the yaw in W.
+  heading_ = Heading{message.time_boot_ms, yawOf(message.R_NED_FRD)};
+}
+
+void AutopilotMonitor::receive(const LandedStateMessage& message, Time /*arrival*/) {
+  last_.landed = landedStateOf(message.landed_state);
+}
+
+AutopilotState AutopilotMonitor::state(Time now) const {
+  AutopilotState state = last_;
+  state.heartbeat_age = ageOf(heartbeat_arrival_, now);
+  state.position_age = ageOf(position_arrival_, now);
+  state.attitude_age = ageOf(attitude_arrival_, now);
+  state.linked = state.heartbeat_age && *state.heartbeat_age < heartbeat_timeout_;
+  return state;
+}
+
+std::optional<AutopilotPose> AutopilotMonitor::takePose() {
+  if (poses_.empty()) return std::nullopt;
+  const AutopilotPose pose = poses_.front();
+  poses_.popFront();
+  return pose;
+}
+
+}  // namespace nanomap

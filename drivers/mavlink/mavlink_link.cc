@@ -1,0 +1,303 @@
+#include "drivers/mavlink/mavlink_link.h"
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "drivers/mavlink/cmavsdk.h"
+#include "drivers/mavlink/outgoing_gate.h"
+
+namespace nanomap {
+namespace {
+
+constexpr std::uint32_t kAutopilotComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
+constexpr Duration kHeartbeatPeriod = std::chrono::seconds(1);
+
+template <auto Destroy>
+struct Destroyer {
+  template <class Object>
+  void operator()(Object* object) const {
+    Destroy(object);
+  }
+};
+using Mavsdk = std::unique_ptr<mavsdk_s, Destroyer<mavsdk_destroy>>;
+using System = std::unique_ptr<mavsdk_system_s, Destroyer<mavsdk_system_destroy>>;
+using Direct = std::unique_ptr<mavsdk_mavlink_direct_s, Destroyer<mavsdk_mavlink_direct_destroy>>;
+
+/// What the connection result of MAVSDK says to do.
+std::string_view remedyOf(int connection_result) {
+  constexpr int kBindError = 3;
+  constexpr int kUrlInvalid = 12;
+  constexpr int kBaudrateUnknown = 13;
+  switch (connection_result) {
+    case kBindError:
+      return "the port is taken: stop what uses it, or choose another one";
+    case kUrlInvalid:
+      return "write udpin://0.0.0.0:14540, udpout://HOST:PORT, tcpout://HOST:PORT or serial:///dev/DEVICE:BAUD";
+    case kBaudrateUnknown:
+      return "the line does not know this baud rate";
+    default:
+      return "check that the address is right, that the other end is there, and that the device may be opened";
+  }
+}
+
+Mavsdk createMavsdk(const LinkParameters& parameters) {
+  if (parameters.system_id == 0) throw std::invalid_argument("MAVLink: system_id must lie between 1 and 255");
+  if (parameters.component_id <= kAutopilotComponent) {
+    throw std::invalid_argument("MAVLink: component_id must lie between 2 and 255; 1 is the autopilot's");
+  }
+  if (!(parameters.pose_rate_hz > 0.0)) throw std::invalid_argument("MAVLink: pose_rate_hz must be positive");
+  const std::unique_ptr<mavsdk_configuration_s, Destroyer<mavsdk_configuration_destroy>> configuration(
+      mavsdk_configuration_create_with_component_type(MAVSDK_COMPONENT_TYPE_COMPANION_COMPUTER));
+  mavsdk_configuration_set_system_id(configuration.get(), parameters.system_id);
+  mavsdk_configuration_set_component_id(configuration.get(), parameters.component_id);
+  return Mavsdk(mavsdk_create(configuration.get()));
+}
+
+std::vector<MessageIntervalRequest> wantedStreams(double pose_rate_hz) {
+  constexpr std::uint32_t kHeartbeat = 0;
+  constexpr std::uint32_t kAttitudeQuaternion = 31;
+  constexpr std::uint32_t kLocalPositionNed = 32;
+  constexpr std::uint32_t kExtendedSysState = 245;
+  const Duration pose_interval = fromSeconds(1.0 / pose_rate_hz);
+  return {{kHeartbeat, std::chrono::milliseconds(200)},  // the pilot's mode is in it
+          {kExtendedSysState, std::chrono::milliseconds(500)},
+          {kLocalPositionNed, pose_interval},
+          {kAttitudeQuaternion, pose_interval}};
+}
+
+}  // namespace
+
+std::string_view toString(SendResult result) {
+  switch (result) {
+    case SendResult::kSent:
+      return "sent";
+    case SendResult::kNoAutopilot:
+      return "no autopilot";
+    case SendResult::kNotFinite:
+      return "not finite";
+    case SendResult::kRefused:
+      return "refused by MAVSDK";
+  }
+  return "?";
+}
+
+/// Lives at one address: MAVSDK's callbacks point to it.
+class MavlinkLink::Session {
+ public:
+  Session(const LinkParameters& parameters, Clock now)
+      : now_(std::move(now)),
+        wanted_streams_(wantedStreams(parameters.pose_rate_hz)),
+        monitor_(parameters.heartbeat_timeout),
+        mavsdk_(createMavsdk(parameters)) {
+    mavsdk_subscribe_outgoing_messages_json(mavsdk_.get(), &Session::onOutgoing, this);
+    const int result = mavsdk_add_any_connection(mavsdk_.get(), parameters.url.c_str());
+    if (result != MAVSDK_CONNECTION_RESULT_SUCCESS) {
+      throw std::runtime_error("MAVLink: cannot open '" + parameters.url + "' (MAVSDK's result " +
+                               std::to_string(result) + "): " + std::string(remedyOf(result)));
+    }
+  }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  ~Session() {
+    for (const mavsdk_handle_t subscription : subscriptions_) {
+      mavsdk_mavlink_direct_unsubscribe_message(direct_.get(), subscription);
+    }
+  }
+
+  void keepAlive(SystemStatus status) {
+    if (!direct_ && !discover()) return;
+    const Time now = now_();
+    if (status != last_status_ || now >= next_heartbeat_) {
+      own_heartbeats_ = true;
+      (void)sendMessage("HEARTBEAT", toJson(status));
+      last_status_ = status;
+      next_heartbeat_ = now + kHeartbeatPeriod;
+    }
+    requestStreams(now);
+  }
+
+  SendResult send(const LocalNedTarget& target) {
+    if (!direct_) return SendResult::kNoAutopilot;
+    if (!target.isFinite()) {
+      ++refused_;
+      return SendResult::kNotFinite;
+    }
+    return sendMessage("SET_POSITION_TARGET_LOCAL_NED", toJson(target, autopilot_), setpoints_sent_);
+  }
+
+  SendResult send(const OdometryMessage& odometry) {
+    // MAVSDK's timesync tells the autopilot the realtime clock: stamps move over to it here.
+    const auto realtime = std::chrono::system_clock::now().time_since_epoch() - (now_() - odometry.stamp);
+    const auto realtime_us = std::chrono::duration_cast<std::chrono::microseconds>(realtime).count();
+    return sendMessage("ODOMETRY", toJson(odometry, static_cast<std::uint64_t>(realtime_us)));
+  }
+
+  SendResult sendText(Severity severity, std::string_view text) {
+    SendResult result = SendResult::kSent;
+    for (const StatusTextChunk& chunk : statusTextChunks(severity, text, ++text_id_)) {
+      if (const SendResult sent = sendMessage("STATUSTEXT", toJson(chunk)); sent != SendResult::kSent) result = sent;
+    }
+    return result;
+  }
+
+  SendResult sendMessage(const char* name, const std::string& fields) {
+    return sendMessage(name, fields, others_sent_);
+  }
+
+  AutopilotState autopilot() {
+    const std::lock_guard lock(monitor_mutex_);
+    return monitor_.state(now_());
+  }
+
+  std::optional<AutopilotPose> takePose() {
+    const std::lock_guard lock(monitor_mutex_);
+    return monitor_.takePose();
+  }
+
+  LinkCounters counters() {
+    LinkCounters counters;
+    counters.setpoints_sent = setpoints_sent_;
+    counters.others_sent = others_sent_;
+    counters.refused = refused_;
+    counters.stale_setpoints = stale_setpoints_;
+    counters.received = received_;
+    counters.malformed = malformed_;
+    const std::lock_guard lock(monitor_mutex_);
+    counters.autopilot = monitor_.counters();
+    return counters;
+  }
+
+ private:
+  using Counter = std::atomic<std::uint64_t>;
+
+  bool discover() {
+    constexpr double kDoNotWait = 0.0;
+    system_.reset(mavsdk_first_autopilot(mavsdk_.get(), kDoNotWait));
+    if (!system_) return false;
+    autopilot_.system_id = static_cast<std::uint8_t>(mavsdk_system_get_system_id(system_.get()));
+    mavsdk_system_enable_timesync(system_.get());
+    direct_.reset(mavsdk_mavlink_direct_create(system_.get()));
+    subscribe<HeartbeatMessage>("HEARTBEAT");
+    subscribe<LocalPositionMessage>("LOCAL_POSITION_NED");
+    subscribe<AttitudeMessage>("ATTITUDE_QUATERNION");
+    subscribe<LandedStateMessage>("EXTENDED_SYS_STATE");
+    return true;
+  }
+
+  template <class Message>
+  void subscribe(const char* name) {
+    subscriptions_.push_back(
+        mavsdk_mavlink_direct_subscribe_message(direct_.get(), name, &Session::onMessage<Message>, this));
+  }
+
+  void requestStreams(Time now) {
+    if (now < next_request_) return;
+    constexpr Duration kSilent = std::chrono::seconds(1);
+    constexpr Duration kRetry = std::chrono::seconds(1);
+    constexpr Duration kRefresh = std::chrono::seconds(10);  // a request can be lost, and an autopilot restart
+    const AutopilotState state = autopilot();
+    const bool complete = state.position_age && *state.position_age < kSilent &&  //
+                          state.attitude_age && *state.attitude_age < kSilent;
+    next_request_ = now + (complete ? kRefresh : kRetry);
+    for (const MessageIntervalRequest& request : wanted_streams_) {
+      (void)sendMessage("COMMAND_LONG", toJson(request, autopilot_));
+    }
+  }
+
+  SendResult sendMessage(const char* name, const std::string& fields, Counter& sent) {
+    if (!direct_) return SendResult::kNoAutopilot;
+    mavsdk_mavlink_direct_mavlink_message_t message{};
+    message.message_name = name;
+    message.target_system_id = autopilot_.system_id;
+    message.target_component_id = autopilot_.component_id;
+    message.fields_json = fields.c_str();
+    const int result = mavsdk_mavlink_direct_send_message(direct_.get(), message);
+    if (result != MAVSDK_MAVLINK_DIRECT_RESULT_SUCCESS) {
+      ++refused_;
+      return SendResult::kRefused;
+    }
+    ++sent;
+    return SendResult::kSent;
+  }
+
+  /// On MAVSDK's callback thread.
+  template <class Message>
+  static void onMessage(mavsdk_mavlink_direct_mavlink_message_t message, void* self) {
+    static_cast<Session*>(self)->receive<Message>(message);
+    mavsdk_mavlink_direct_mavlink_message_destroy(&message);
+  }
+
+  template <class Message>
+  void receive(const mavsdk_mavlink_direct_mavlink_message_t& message) noexcept {
+    if (message.system_id != autopilot_.system_id || message.component_id != kAutopilotComponent) return;
+    ++received_;
+    const Time arrival = now_();
+    const auto fields = fromJson<Message>(message.fields_json);
+    if (!fields) {
+      ++malformed_;
+      return;
+    }
+    const std::lock_guard lock(monitor_mutex_);
+    monitor_.receive(*fields, arrival);
+  }
+
+  /// On MAVSDK's sending thread.
+  static int onOutgoing(mavsdk_message_t message, void* self) noexcept {
+    auto& session = *static_cast<Session*>(self);
+    const GateVerdict verdict =
+        judgeOutgoing(message.message_name, message.fields_json, session.own_heartbeats_, session.now_());
+    if (verdict == GateVerdict::kStaleSetpoint) ++session.stale_setpoints_;
+    return verdict == GateVerdict::kPass ? 1 : 0;
+  }
+
+  Clock now_;
+  std::vector<MessageIntervalRequest> wanted_streams_;
+
+  std::mutex monitor_mutex_;
+  AutopilotMonitor monitor_;
+
+  std::atomic<bool> own_heartbeats_ = false;
+  Counter setpoints_sent_ = 0;
+  Counter others_sent_ = 0;
+  Counter refused_ = 0;
+  Counter stale_setpoints_ = 0;
+  Counter received_ = 0;
+  Counter malformed_ = 0;
+
+  std::optional<SystemStatus> last_status_;
+  Time next_heartbeat_{};
+  Time next_request_{};
+  std::uint16_t text_id_ = 0;
+  MavlinkAddress autopilot_;
+
+  // Destroyed in the reverse order, as MAVSDK wants it; its threads end with the first of them.
+  Mavsdk mavsdk_;
+  System system_;
+  Direct direct_;
+  std::vector<mavsdk_handle_t> subscriptions_;
+};
+
+MavlinkLink::MavlinkLink(const LinkParameters& parameters, Clock now)
+    : session_(std::make_unique<Session>(parameters, std::move(now))) {}
+
+MavlinkLink::~MavlinkLink() = default;
+
+void MavlinkLink::keepAlive(SystemStatus status) { session_->keepAlive(status); }
+SendResult MavlinkLink::send(const LocalNedTarget& target) { return session_->send(target); }
+SendResult MavlinkLink::send(const ObstacleDistances& distances) {
+  return session_->sendMessage("OBSTACLE_DISTANCE", toJson(distances));
+}
+SendResult MavlinkLink::send(const OdometryMessage& odometry) { return session_->send(odometry); }
+SendResult MavlinkLink::sendText(Severity severity, std::string_view text) {
+  return session_->sendText(severity, text);
+}
+AutopilotState MavlinkLink::autopilot() const { return session_->autopilot(); }
+std::optional<AutopilotPose> MavlinkLink::takePose() { return session_->takePose(); }
+LinkCounters MavlinkLink::counters() const { return session_->counters(); }
+
+}  // namespace nanomap
