@@ -1,126 +1,145 @@
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
-#include <random>
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "core/query.h"
-#include "tests/bench/recorded_flight.h"
+#include "tests/bench/frames/scenario.h"
+#include "tests/bench/report/scoreboard.h"
+#include "tests/bench/rows/effort.h"
+#include "tests/bench/rows/workload.h"
+#include "tools/import/camera_preset.h"
 
 namespace nanomap::bench {
 namespace {
 
-constexpr std::size_t kHistory = 150;
-constexpr std::size_t kPlanQueries = 125 * 20;
-constexpr unsigned kSeed = 5;
+struct Scene {
+  std::string_view name;
+  Noise noise;
+};
+/// Google Benchmark runs on the first.
+constexpr std::array kScenes = {Scene{"forest", Noise::kNoisy}, Scene{"forest", Noise::kClean},
+                                Scene{"warehouse", Noise::kNoisy}, Scene{"warehouse", Noise::kClean}};
 
-const RecordedFlight& flight() {
-  static const RecordedFlight instance = recordFlight(kHistory);
-  return instance;
+struct Options {
+  bool ratios = false;
+  bool quick = false;
+  std::filesystem::path json;
+  std::filesystem::path depth_folder;
+  std::string camera_preset = "kinect-office";
+};
+
+void addOptions(CLI::App& app, Options& options) {
+  app.add_flag("--ratios", options.ratios,
+               "Print one line a row, `name value bar ok|short`; exit with 1 if one is short. Without it, Google "
+               "Benchmark runs, on one scene, and takes its own options");
+  app.add_flag("--quick", options.quick, "Hardly measure: shows that everything works, the figures say nothing");
+  app.add_option("--json", options.json, "Write the results to this file as well");
+  app.add_option("--depth-dir", options.depth_folder,
+                 "Run on a folder of NNNNNN.depth.png and NNNNNN.pose.txt instead of generated frames")
+      ->check(CLI::ExistingDirectory);
+  std::vector<std::string> presets;
+  for (const CameraPreset& preset : cameraPresets()) presets.emplace_back(preset.name);
+  app.add_option("--camera-preset", options.camera_preset, "Calibration of the folder's camera")
+      ->capture_default_str()
+      ->check(CLI::IsMember(presets));
+  app.allow_extras();
 }
 
-const ChainSnapshot& snapshot() {
-  static const ChainSnapshot instance = chainOf(flight()).snapshot();
-  return instance;
+Scenario recordedScenario(const Options& options, const Effort& effort) {
+  return readScenario(options.depth_folder, *findCameraPreset(options.camera_preset), effort.history);
 }
 
-/// Points whose answer meets `wanted`, drawn around the vehicle.
-template <class Predicate>
-std::vector<UncertainPoint> draw(std::size_t count, Predicate&& wanted) {
-  std::mt19937 random(kSeed);
-  std::uniform_real_distribution<double> coordinate(-12.0, 12.0);
-  std::vector<UncertainPoint> points_B;
-  while (points_B.size() < count) {
-    const UncertainPoint x_B{{coordinate(random), coordinate(random), coordinate(random) / 4.0},
-                             0.01 * Mat3::Identity()};
-    if (wanted(query(snapshot(), x_B, {}))) points_B.push_back(x_B);
+int runRatios(const Options& options, const Effort& effort) {
+  Scoreboard scoreboard;
+  const bool generated = options.depth_folder.empty();
+  if (generated) {
+    for (const auto& [scene, noise] : kScenes) {
+      Workload(generateScenario(scene, noise, effort.history), effort).measure(scoreboard);
+    }
+  } else {
+    Workload(recordedScenario(options, effort), effort).measure(scoreboard);
+    scoreboard.remark("the bars are for generated frames of 320x240");
   }
-  return points_B;
+#ifndef NANOMAP_BENCH_OCTOMAP
+  scoreboard.remark("OctoMap was not found when this was built: it is not compared with");
+#endif
+  scoreboard.print(generated);
+  if (!options.json.empty()) scoreboard.writeJson(options.json);
+  return scoreboard.allReached(generated) ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
-bool inCurrentView(const QueryReply& reply) { return reply.status == Status::kFree && reply.view_index == 0U; }
-bool deeper(const QueryReply& reply) { return reply.status == Status::kFree && *reply.view_index > 0; }
-bool inNoView(const QueryReply& reply) { return reply.status != Status::kFree && reply.status != Status::kOpen; }
+void registerBenchmark(const std::string& name, const Contestant& contestant) {
+  benchmark::RegisterBenchmark(name.c_str(), [contestant](benchmark::State& state) {
+    for (auto _ : state) {
+      if (contestant.prepare) {
+        state.PauseTiming();
+        contestant.prepare();
+        state.ResumeTiming();
+      }
+      contestant.run();
+    }
+    state.counters["item"] = benchmark::Counter(
+        contestant.items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  })->Unit(benchmark::kMicrosecond);
+}
 
-void runQueries(benchmark::State& state, const std::vector<UncertainPoint>& points_B, const QueryOptions& options) {
-  std::size_t i = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(query(snapshot(), points_B[i], options));
-    i = i + 1 == points_B.size() ? 0 : i + 1;
+/// Google Benchmark takes what is left of the command line, and says what it does not know.
+int runBenchmarks(const Options& options, const Effort& effort, std::vector<std::string> arguments) {
+  if (!options.json.empty()) {
+    arguments.push_back("--benchmark_out=" + options.json.string());
+    arguments.push_back("--benchmark_out_format=json");
   }
-}
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  int argc = static_cast<int>(argv.size());
+  argv.push_back(nullptr);  // as main's ends
+  benchmark::Initialize(&argc, argv.data());
+  if (benchmark::ReportUnrecognizedArguments(argc, argv.data())) return EXIT_FAILURE;
 
-void buildViewFromImage(benchmark::State& state) {
-  const RecordedFlight& recorded = flight();
-  for (auto _ : state) benchmark::DoNotOptimize(buildView(recorded.frames.front(), recorded.camera));
-}
-BENCHMARK(buildViewFromImage)->Unit(benchmark::kMillisecond);
-
-/// A built view into a full chain, and the pose that follows it.
-void insertView(benchmark::State& state) {
-  Chain chain = chainOf(flight());
-  ChainSnapshot out;
-  Time stamp = flight().poses.back().stamp;
-  BodyPose pose = flight().poses.back();
-  for (auto _ : state) {
-    state.PauseTiming();
-    stamp += std::chrono::milliseconds(10);
-    DepthImage empty = flight().frames.front();
-    empty.stamp = stamp;
-    auto view = std::make_shared<const View>(std::move(empty), flight().camera, nullptr);
-    pose.stamp = stamp;
-    state.ResumeTiming();
-    (void)chain.addPose(pose);
-    (void)chain.addView(std::move(view));
-    chain.snapshotInto(out);
+  const auto& [scene, noise] = kScenes.front();
+  const Workload workload(
+      options.depth_folder.empty() ? generateScenario(scene, noise, effort.history) : recordedScenario(options, effort),
+      effort);
+  for (const Contest& contest : workload.contests()) {
+    for (const Contestant& contestant : contest.contestants) {
+      registerBenchmark(contest.name + "/" + contestant.name, contestant);
+    }
   }
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return EXIT_SUCCESS;
 }
-BENCHMARK(insertView)->Unit(benchmark::kMicrosecond);
-
-void queryInCurrentView(benchmark::State& state) {
-  static const std::vector<UncertainPoint> points_B = draw(1000, inCurrentView);
-  runQueries(state, points_B, {.k = static_cast<int>(state.range(0))});
-}
-BENCHMARK(queryInCurrentView)->Arg(1)->Arg(10);
-
-void queryThatNoneOf150ViewsContains(benchmark::State& state) {
-  static const std::vector<UncertainPoint> points_B = draw(1000, inNoView);
-  runQueries(state, points_B, {.k = static_cast<int>(state.range(0))});
-}
-BENCHMARK(queryThatNoneOf150ViewsContains)->Arg(1)->Arg(10);
-
-/// One plan's worth of queries, three quarters of them in the current view (paper IV.B), the rest deeper.
-void planOf2500Queries(benchmark::State& state) {
-  static const std::vector<UncertainPoint> points_B = [] {
-    std::vector<UncertainPoint> points = draw(kPlanQueries * 3 / 4, inCurrentView);
-    const std::vector<UncertainPoint> others = draw(kPlanQueries - points.size(), deeper);
-    points.insert(points.end(), others.begin(), others.end());
-    return points;
-  }();
-  std::vector<QueryReply> replies(points_B.size());
-  for (auto _ : state) {
-    queryBatch(snapshot(), points_B, {}, replies);
-    benchmark::DoNotOptimize(replies.data());
-  }
-}
-BENCHMARK(planOf2500Queries)->Unit(benchmark::kMillisecond);
-
-/// A window over the whole history, a corrected pose a view.
-void correct150Poses(benchmark::State& state) {
-  Chain chain = chainOf(flight());
-  Correction correction;
-  for (const DepthImage& frame : flight().frames) {
-    const PoseBuffer::Lookup original = chain.poses().interpolate(frame.stamp);
-    correction.poses.push_back({frame.stamp, Pose{Quat::Identity(), Vec3(0.1, 0.0, 0.0)} * original.T_W_B});
-  }
-  for (auto _ : state) {
-    ++correction.sequence;
-    benchmark::DoNotOptimize(chain.addCorrection(correction));
-  }
-  if (chain.counters().edges_corrected == 0) state.SkipWithError("no edge was corrected");
-}
-BENCHMARK(correct150Poses)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace nanomap::bench
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  using namespace nanomap::bench;
+  CLI::App app("Measures NanoMap against its references, all in one run.", "nanomap-bench");
+  Options options;
+  addOptions(app, options);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const Effort effort = options.quick ? Effort::quick() : Effort();
+    std::vector<std::string> others = app.remaining();
+    if (!options.ratios) {
+      others.insert(others.begin(), app.get_name());
+      return runBenchmarks(options, effort, std::move(others));
+    }
+    if (!others.empty()) throw std::invalid_argument(others.front() + ": not an option of --ratios");
+    return runRatios(options, effort);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "nanomap-bench: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,27 @@
+# Runs the table of ratios with next to no effort: cmake -DBENCH=<nanomap-bench> -P ...
+# Times that short decide nothing on a busy machine, so that a bar may be missed (exit 1); but every row must be there
+# and have a value, and no answer may differ from its reference.
+execute_process(COMMAND "${BENCH}" --ratios --quick OUTPUT_VARIABLE output RESULT_VARIABLE result)
+message("${output}")
+if(NOT result MATCHES "^[01]$")
+  message(FATAL_ERROR "nanomap-bench --ratios failed: ${result}")
+endif()
+
+string(REGEX MATCHALL "[^\n]+ (ok|short)\n" rows "${output}")
+list(LENGTH rows count)
+file(STRINGS "${CMAKE_CURRENT_LIST_DIR}/report/scoreboard.h" defined REGEX "Row{\"")
+list(LENGTH defined expected)
+if(expected EQUAL 0 OR NOT count EQUAL expected)
+  message(FATAL_ERROR "${count} rows of ${expected}")
+endif()
+if(output MATCHES "[^\n]* - [^\n]*short\n")
+  message(FATAL_ERROR "a row without value: ${CMAKE_MATCH_0}")
+endif()
+foreach(row IN ITEMS distances_that_differ views_that_differ)
+  if(NOT output MATCHES "${row} 0 0 ok\n")
+    message(FATAL_ERROR "${row} is not 0")
+  endif()
+endforeach()
+if(output MATCHES "differ from a linear scan")
+  message(FATAL_ERROR "a reference is not exact")
+endif()
