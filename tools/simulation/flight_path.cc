@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/simulation/attitude.h"
 #include "tools/simulation/random.h"
 #include "tools/simulation/route.h"
 #include "tools/simulation/smoothing.h"
@@ -19,7 +20,6 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using std::numbers::pi;
 
-constexpr double kGravity_m_s2 = 9.80665;
 constexpr double kPathStep_m = 0.05;
 constexpr double kSamplePeriod_s = 0.002;
 constexpr std::size_t kTiltHalfWidth = 40;  // samples: 80 ms, how fast a quadrotor of this size changes its tilt
@@ -128,17 +128,6 @@ std::vector<Sample> follow(const Mission& mission, const std::vector<Vec2>& poin
   return samples;
 }
 
-/// Attitude of a vehicle whose thrust, along its z, gives the acceleration, and whose x points along the yaw as seen
-/// from above.
-Quat attitude(const Vec3& acceleration_W_m_s2, double yaw_rad) {
-  const Vec3 across_W(-std::sin(yaw_rad), std::cos(yaw_rad), 0.0);
-  const Vec3 z_W = (acceleration_W_m_s2 + kGravity_m_s2 * Vec3::UnitZ()).normalized();
-  const Vec3 x_W = across_W.cross(z_W).normalized();
-  Mat3 R_W_B;
-  R_W_B << x_W, z_W.cross(x_W), z_W;
-  return Quat(R_W_B);
-}
-
 /// States with the derivatives that belong to the positions.
 std::vector<VehicleState> differentiate(const std::vector<Vec3>& position_W, const std::vector<double>& yaw_rad) {
   std::vector<VehicleState> states;
@@ -148,7 +137,7 @@ std::vector<VehicleState> differentiate(const std::vector<Vec3>& position_W, con
     state.velocity_W_m_s = (position_W[i + 1] - position_W[i - 1]) / (2.0 * kSamplePeriod_s);
     state.acceleration_W_m_s2 =
         (position_W[i + 1] - 2.0 * position_W[i] + position_W[i - 1]) / (kSamplePeriod_s * kSamplePeriod_s);
-    state.T_W_B = {attitude(state.acceleration_W_m_s2, yaw_rad[i]), position_W[i]};
+    state.T_W_B = {attitudeFor(state.acceleration_W_m_s2, yaw_rad[i]), position_W[i]};
     states.push_back(state);
   }
   for (std::size_t i = 0; i + 1 < states.size(); ++i) {

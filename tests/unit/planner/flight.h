@@ -8,6 +8,7 @@
 
 #include "core/chain.h"
 #include "planner/planner.h"
+#include "planner/receding_horizon.h"
 #include "tests/support/drawn_world.h"
 
 namespace nanomap::test {
@@ -61,7 +62,7 @@ class Flight {
   Decision step(const std::optional<Goal>& goal) {
     look();
     const Decision decision = planner_.plan(snapshot_, state(), goal, now_);
-    if (decision.candidate && decision.brake_verified) in_force_ = decision;
+    if (isFlyable(decision)) in_force_ = decision;
     if (in_force_) motion_W_ = follow(*in_force_, decision);
     yaw_W_rad_ += decision.yaw_rate_rad_s * toSeconds(kPeriod);
     now_ += kPeriod;
