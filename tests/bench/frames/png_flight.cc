@@ -14,7 +14,7 @@ namespace nanomap::bench {
 RecordedFlight readPngFlight(const std::filesystem::path& folder, const CameraParameters& camera,
                              std::size_t max_frames) {
   constexpr double kRate_hz = 30.0;
-  constexpr Duration kAfterLast = std::chrono::milliseconds(10);
+  constexpr Duration kAround = std::chrono::milliseconds(10);
   RecordedFlight flight;
   flight.camera = std::make_shared<const CameraModel>(camera);
   const Recording recording = select(readNumberedLayout(folder, kRate_hz), 1, max_frames);
@@ -29,13 +29,15 @@ RecordedFlight readPngFlight(const std::filesystem::path& folder, const CameraPa
     flight.frames.push_back(std::move(image));
   }
   for (const RecordedPose& recorded : recording.poses) {
-    flight.poses.push_back({recorded.stamp, recorded.T_W_C * T_C_B, 0, flight.poses.size(), {}});
+    flight.poses.push_back({recorded.stamp, recorded.T_W_C * T_C_B, 0, 0, {}});
   }
-  // The vehicle stays where the last frame was taken, so that poses surround every frame.
-  BodyPose last = flight.poses.back();
-  last.stamp += kAfterLast;
-  ++last.sequence;
-  flight.poses.push_back(last);
+  // The vehicle stands still before the first frame and after the last, so that poses surround every frame.
+  BodyPose before = flight.poses.front();
+  before.stamp -= kAround;
+  BodyPose after = flight.poses.back();
+  after.stamp += kAround;
+  flight.poses.insert(flight.poses.begin(), before);
+  flight.poses.push_back(after);
   return flight;
 }
 

@@ -15,6 +15,7 @@ namespace {
 struct Cycle {
   Chain chain;
   ChainSnapshot snapshot;
+  QueryScratch scratch;
   std::vector<QueryReply> replies;
 };
 
@@ -46,14 +47,14 @@ Contest locateContest(std::shared_ptr<const ChainFixture> fixture, const Walker&
 
 Contest cycleContest(std::shared_ptr<const ChainFixture> fixture, const std::vector<Walker>& walkers,
                      const std::string& name, BodyPointSet points_B) {
-  const auto cycle =
-      std::make_shared<Cycle>(fixture->before, ChainSnapshot{}, std::vector<QueryReply>(points_B->size()));
+  const auto cycle = std::make_shared<Cycle>(fixture->before, ChainSnapshot{}, QueryScratch{},
+                                             std::vector<QueryReply>(points_B->size()));
   Contest contest{.name = name,
                   .contestants = {{.name = "nanomap",
                                    .run =
                                        [fixture, points_B, cycle] {
                                          fixture->insertLast(cycle->chain, cycle->snapshot);
-                                         queryBatch(cycle->snapshot, *points_B, {}, cycle->replies);
+                                         queryBatch(cycle->snapshot, *points_B, {}, cycle->scratch, cycle->replies);
                                        },
                                    .prepare = [fixture, cycle] { cycle->chain = fixture->before; }}},
                   .ratings = {},

@@ -17,7 +17,7 @@ namespace {
 constexpr int kRepeats = 10;
 
 /// Poses that drift away from the original ones, slowly, from just before the first view to just after the last.
-Correction driftingWindow(const ChainFixture& fixture) {
+Correction driftingWindow(const ChainFixture& fixture, const PoseBuffer& poses) {
   constexpr Duration kMargin = std::chrono::milliseconds(5);
   constexpr double kDrift_m = 0.001;
   constexpr double kDrift_rad = 0.0001;
@@ -27,7 +27,7 @@ Correction driftingWindow(const ChainFixture& fixture) {
   Correction correction;
   for (std::int64_t i = 0; i < count; ++i) {
     const Time stamp = first + span * i / (count - 1);
-    const PoseBuffer::Lookup original = fixture.before.poses().interpolate(stamp);
+    const PoseBuffer::Lookup original = poses.interpolate(stamp);
     if (original.status != PoseBuffer::LookupStatus::kFound) throw std::runtime_error("no pose around a depth frame");
     const auto drift = static_cast<double>(i);
     const Pose T_Wnew_W{Quat(Eigen::AngleAxisd(drift * kDrift_rad, Vec3::UnitZ())), {drift * kDrift_m, 0.0, 0.0}};
@@ -50,9 +50,9 @@ Contest correctionContest(std::shared_ptr<const ChainFixture> fixture) {
   Chain chain = fixture->before;
   ChainSnapshot unused;
   fixture->insertLast(chain, unused);
-  const auto corrected =
-      std::make_shared<Corrected>(std::move(chain), driftingWindow(*fixture),
-                                  SlerpCorrection(std::move(stamps), fixture->flight.camera->parameters().T_B_C));
+  const Correction window = driftingWindow(*fixture, chain.poses());
+  const auto corrected = std::make_shared<Corrected>(
+      std::move(chain), window, SlerpCorrection(std::move(stamps), fixture->flight.camera->parameters().T_B_C));
 
   const auto contestant = [&](const char* name, auto apply) {
     return Contestant{.name = name, .items = kRepeats, .run = [fixture, corrected, apply] {
