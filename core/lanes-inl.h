@@ -1,0 +1,54 @@
+// Vectors as the nearest-point index uses them, for each instruction set anew. After core/simd.h and Highway.
+#if defined(NANOMAP_CORE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NANOMAP_CORE_LANES_INL_H_
+#undef NANOMAP_CORE_LANES_INL_H_
+#else
+#define NANOMAP_CORE_LANES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/box_groups.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nanomap::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// As many floats as a vector holds, sixteen at most: a group's boxes are a whole number of vectors.
+using FloatTag = hn::CappedTag<float, kGroupBoxes>;
+using IndexTag = hn::RebindToSigned<FloatTag>;
+using FloatVec = hn::Vec<FloatTag>;
+using IndexVec = hn::Vec<IndexTag>;
+
+constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+
+/// The lanes of a mask, one bit each.
+template <class Mask>
+HWY_INLINE std::uint32_t bitsOf(Mask mask) {
+  std::uint8_t bytes[8] = {};  // what StoreMaskBits may write
+  hn::StoreMaskBits(FloatTag(), mask, bytes);
+  return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+}
+
+HWY_INLINE float leastLane(FloatVec v) { return hn::GetLane(hn::MinOfLanes(FloatTag(), v)); }
+HWY_INLINE float greatestLane(FloatVec v) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), v)); }
+HWY_INLINE std::int32_t leastLane(IndexVec v) { return hn::GetLane(hn::MinOfLanes(IndexTag(), v)); }
+
+alignas(64) constexpr std::array<std::int32_t, kGroupBoxes> kCounting = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                                         8, 9, 10, 11, 12, 13, 14, 15};
+
+/// first, first + 1, ...
+HWY_INLINE IndexVec countingFrom(std::size_t first) {
+  const IndexTag d;
+  return hn::Add(hn::Load(d, kCounting.data()), hn::Set(d, static_cast<std::int32_t>(first)));
+}
+
+}  // namespace nanomap::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

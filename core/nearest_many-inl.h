@@ -1,0 +1,151 @@
+// For each instruction set anew. After core/simd.h and Highway.
+#if defined(NANOMAP_CORE_NEAREST_MANY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NANOMAP_CORE_NEAREST_MANY_INL_H_
+#undef NANOMAP_CORE_NEAREST_MANY_INL_H_
+#else
+#define NANOMAP_CORE_NEAREST_MANY_INL_H_
+#endif
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/box_groups_search.h"
+#include "core/lanes-inl.h"
+#include "core/nearest_point_index.h"
+#include "core/tile_grid.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nanomap::HWY_NAMESPACE {
+
+/// Squared distances of a tile's pixels, infinite where a pixel does not count.
+struct alignas(64) TileDistances {
+  std::array<float, TileGrid::kTilePixels> sq_m2;
+
+  [[nodiscard]] HWY_INLINE FloatVec vector(std::size_t first) const { return hn::Load(FloatTag(), &sq_m2[first]); }
+
+  /// The pixels within `limit`, one bit each.
+  [[nodiscard]] HWY_INLINE std::uint64_t within(float limit_sq_m2) const {
+    const FloatVec limit = hn::Set(FloatTag(), limit_sq_m2);
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sq_m2.size(); i += kLanes) {
+      bits |= static_cast<std::uint64_t>(bitsOf(hn::Le(vector(i), limit))) << i;
+    }
+    return bits;
+  }
+
+  /// At least the distance of the k-th nearest pixel, k up to sixteen: the k-th least of sixteen minima, each over four
+  /// pixels of its own.
+  [[nodiscard]] HWY_INLINE float boundOfKth(std::size_t k) const {
+    const FloatTag d;
+    const IndexTag di;
+    alignas(64) BoxLanes least;
+    for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
+      const FloatVec a = hn::Min(vector(i), vector(i + kGroupBoxes));
+      const FloatVec b = hn::Min(vector(i + 2 * kGroupBoxes), vector(i + 3 * kGroupBoxes));
+      hn::Store(hn::Min(a, b), d, &least[i]);
+    }
+    FloatVec kth = hn::Set(d, std::numeric_limits<float>::infinity());
+    const IndexVec wanted = hn::Set(di, -static_cast<std::int32_t>(k));
+    for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
+      const FloatVec candidate = hn::Load(d, &least[i]);
+      IndexVec not_farther = hn::Zero(di);  // counted downwards: a mask's lanes are -1
+      for (const float other : least) {
+        not_farther =
+            hn::Add(not_farther, hn::VecFromMask(di, hn::RebindMask(di, hn::Le(hn::Set(d, other), candidate))));
+      }
+      const auto enough = hn::RebindMask(d, hn::Not(hn::Gt(not_farther, wanted)));
+      kth = hn::Min(kth, hn::IfThenElse(enough, candidate, kth));
+    }
+    return leastLane(kth);
+  }
+};
+
+/// The k nearest pixels for any k up to kMaxNeighbours. A pixel is inserted into all places at once, without a branch.
+class NearestMany {
+ public:
+  NearestMany(float limit_sq_m2, std::size_t k) : k_(k), reach_sq_m2_(limit_sq_m2) {
+    keys_.fill(keyOf(limit_sq_m2, kNoPixel));
+  }
+
+  /// Nothing farther can be among the nearest; at this distance a pixel with a lower number can.
+  [[nodiscard]] float reach() const { return reach_sq_m2_; }
+
+  /// @param distanceAt  squared distances of the tile's pixels from a place on
+  template <class DistanceAt>
+  HWY_INLINE void addTile(std::uint32_t first_pixel, DistanceAt distanceAt) {
+    TileDistances distances;
+    for (std::size_t i = 0; i < TileGrid::kTilePixels; i += kLanes) {
+      hn::Store(distanceAt(i), FloatTag(), &distances.sq_m2[i]);
+    }
+    std::uint64_t places = distances.within(reach_sq_m2_);
+    if (static_cast<std::size_t>(std::popcount(places)) > k_) places &= distances.within(distances.boundOfKth(k_));
+    if (places != 0) insert(first_pixel, distances, places);
+  }
+
+  std::size_t copyTo(std::span<FoundPixel> out) const {
+    std::size_t count = 0;
+    for (; count < k_ && pixelOf(keys_[count]) != kNoPixel; ++count) {
+      out[count] = {distanceOf(keys_[count]), pixelOf(keys_[count])};
+    }
+    return count;
+  }
+
+ private:
+  /// A distance's bits above the pixel's: orders as distance, then pixel, since the bits of floats that are not
+  /// negative order as the floats do. The same holds for doubles, which every instruction set has a minimum of; one in
+  /// the exponent keeps them from being denormal, and infinity's stays below the greatest exponent.
+  using Key = double;
+  using KeyTag = hn::CappedTag<Key, kMaxNeighbours>;
+  using KeyVec = hn::Vec<KeyTag>;
+  static constexpr std::size_t kKeyLanes = hn::MaxLanes(KeyTag());
+  static constexpr std::size_t kKeyVectors = kMaxNeighbours / kKeyLanes;
+  static constexpr std::uint64_t kNormal = std::uint64_t{1} << 52;
+  static constexpr std::uint32_t kNoPixel = std::numeric_limits<std::uint32_t>::max();
+
+  static Key keyOf(float distance_sq_m2, std::uint32_t pixel) {
+    return std::bit_cast<Key>((std::uint64_t{std::bit_cast<std::uint32_t>(distance_sq_m2)} << 32 | pixel) + kNormal);
+  }
+  static float distanceOf(Key key) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>((std::bit_cast<std::uint64_t>(key) - kNormal) >> 32));
+  }
+  static std::uint32_t pixelOf(Key key) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(key)); }
+
+  HWY_INLINE void insert(std::uint32_t first_pixel, const TileDistances& distances, std::uint64_t places) {
+    const KeyTag d;
+    constexpr auto kLast = static_cast<std::int64_t>(kKeyLanes) - 1;
+    alignas(64) std::array<std::int64_t, kKeyLanes> lane_before;
+    for (std::size_t i = 0; i < kKeyLanes; ++i) lane_before[i] = i == 0 ? kLast : static_cast<std::int64_t>(i) - 1;
+    const auto rotation = hn::SetTableIndices(d, lane_before.data());
+    const auto first_lane = hn::FirstN(d, 1);
+
+    KeyVec keys[kKeyVectors];
+    for (std::size_t i = 0; i < kKeyVectors; ++i) keys[i] = hn::Load(d, &keys_[i * kKeyLanes]);
+    for (; places != 0; places &= places - 1) {
+      const auto place = static_cast<std::size_t>(std::countr_zero(places));
+      const KeyVec key = hn::Set(d, keyOf(distances.sq_m2[place], first_pixel + static_cast<std::uint32_t>(place)));
+      // What is before the key stays, what is after it moves one place on.
+      KeyVec carry = hn::Zero(d);
+      for (KeyVec& of : keys) {
+        const KeyVec rotated = hn::TableLookupLanes(of, rotation);
+        of = hn::Min(of, hn::Max(key, hn::IfThenElse(first_lane, carry, rotated)));
+        carry = rotated;
+      }
+    }
+    for (std::size_t i = 0; i < kKeyVectors; ++i) hn::Store(keys[i], d, &keys_[i * kKeyLanes]);
+    reach_sq_m2_ = distanceOf(keys_[k_ - 1]);
+  }
+
+  std::size_t k_;
+  float reach_sq_m2_;
+  alignas(64) std::array<Key, kMaxNeighbours> keys_;  ///< ascending
+};
+
+}  // namespace nanomap::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
