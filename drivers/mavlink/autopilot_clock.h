@@ -13,9 +13,15 @@ namespace nanomap {
 class AutopilotClock {
  public:
   /// When the message was stamped; never later than it arrived.
-  [[nodiscard]] Time toOurs(std::uint32_t time_boot_ms, Time arrival);
+  Time toOurs(std::uint32_t time_boot_ms, Time arrival);
+
+  /// What the autopilot's clock says at `time`, since its boot; empty before its first message, and before its boot.
+  [[nodiscard]] std::optional<Duration> toTheirs(Time time) const;
 
  private:
+  /// Ours less theirs. @pre a message has arrived
+  [[nodiscard]] Duration offset() const;
+
   struct Period {
     Time start{};
     Duration least_offset{};

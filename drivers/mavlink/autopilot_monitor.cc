@@ -99,6 +99,7 @@ void AutopilotMonitor::receive(const LocalPositionMessage& message, Time arrival
 
 void AutopilotMonitor::receive(const AttitudeMessage& message, Time arrival) {
   attitude_arrival_ = arrival;
+  clock_.toOurs(message.time_boot_ms, arrival);
   // The forward axis, from north towards east: the same formula gives the heading that gives the yaw in W.
   heading_ = Heading{message.time_boot_ms, yawOf(message.R_NED_FRD)};
 }

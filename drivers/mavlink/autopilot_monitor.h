@@ -32,6 +32,8 @@ class AutopilotMonitor {
   [[nodiscard]] AutopilotState state(Time now) const;
   /// The oldest pose that nobody has taken yet.
   [[nodiscard]] std::optional<AutopilotPose> takePose();
+  /// As AutopilotClock::toTheirs().
+  [[nodiscard]] std::optional<Duration> sinceBoot(Time time) const { return clock_.toTheirs(time); }
   [[nodiscard]] const AutopilotMonitorCounters& counters() const { return counters_; }
 
  private:

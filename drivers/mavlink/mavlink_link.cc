@@ -77,6 +77,8 @@ std::string_view toString(SendResult result) {
       return "sent";
     case SendResult::kNoAutopilot:
       return "no autopilot";
+    case SendResult::kNoClock:
+      return "the autopilot's time is not known";
     case SendResult::kNotFinite:
       return "not finite";
     case SendResult::kRefused:
@@ -131,10 +133,10 @@ class MavlinkLink::Session {
   }
 
   SendResult send(const OdometryMessage& odometry) {
-    // MAVSDK's timesync tells the autopilot the realtime clock: stamps move over to it here.
-    const auto realtime = std::chrono::system_clock::now().time_since_epoch() - (now_() - odometry.stamp);
-    const auto realtime_us = std::chrono::duration_cast<std::chrono::microseconds>(realtime).count();
-    return sendMessage("ODOMETRY", toJson(odometry, static_cast<std::uint64_t>(realtime_us)));
+    // In the autopilot's time: that is what MAVSDK's timesync makes it believe to be ours.
+    const std::optional<Duration> since_boot = sinceBoot(odometry.stamp);
+    if (!since_boot) return SendResult::kNoClock;
+    return sendMessage("ODOMETRY", toJson(odometry, *since_boot));
   }
 
   SendResult sendText(Severity severity, std::string_view text) {
@@ -152,6 +154,11 @@ class MavlinkLink::Session {
   AutopilotState autopilot() {
     const std::lock_guard lock(monitor_mutex_);
     return monitor_.state(now_());
+  }
+
+  std::optional<Duration> sinceBoot(Time time) {
+    const std::lock_guard lock(monitor_mutex_);
+    return monitor_.sinceBoot(time);
   }
 
   std::optional<AutopilotPose> takePose() {

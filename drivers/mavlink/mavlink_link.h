@@ -30,6 +30,7 @@ struct LinkParameters {
 enum class SendResult : std::uint8_t {
   kSent,         ///< handed to MAVSDK, which does not wait either: nothing says that it arrived
   kNoAutopilot,  ///< none discovered yet
+  kNoClock,      ///< the autopilot has not told its time yet, or had not booted at the message's
   kNotFinite,
   kRefused,  ///< by MAVSDK
 };

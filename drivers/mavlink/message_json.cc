@@ -113,9 +113,9 @@ std::string toJson(const ObstacleDistances& distances) {
       .dump();
 }
 
-std::string toJson(const OdometryMessage& odometry, std::uint64_t realtime_us) {
+std::string toJson(const OdometryMessage& odometry, Duration since_boot) {
   const Eigen::Quaternionf& q = odometry.rotation;
-  return json{{"time_usec", realtime_us},
+  return json{{"time_usec", std::chrono::floor<std::chrono::microseconds>(since_boot).count()},
               {"frame_id", kFrameLocalFrd},
               {"child_frame_id", kFrameBodyFrd},
               {"x", odometry.position_m.x()},

@@ -40,8 +40,8 @@ struct MessageIntervalRequest {
 [[nodiscard]] std::string toJson(SystemStatus status);  ///< HEARTBEAT
 [[nodiscard]] std::string toJson(const LocalNedTarget& target, const MavlinkAddress& to);
 [[nodiscard]] std::string toJson(const ObstacleDistances& distances);
-/// @param realtime_us  the message's stamp on the clock that MAVSDK's timesync announces, CLOCK_REALTIME
-[[nodiscard]] std::string toJson(const OdometryMessage& odometry, std::uint64_t realtime_us);
+/// @param since_boot  the message's stamp on the autopilot's own clock
+[[nodiscard]] std::string toJson(const OdometryMessage& odometry, Duration since_boot);
 [[nodiscard]] std::string toJson(const StatusTextChunk& chunk);
 [[nodiscard]] std::string toJson(const MessageIntervalRequest& request, const MavlinkAddress& to);
 

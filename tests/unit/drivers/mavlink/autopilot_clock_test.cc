@@ -16,6 +16,14 @@ TEST(AutopilotClock, TakesTheFirstMessageForUndelayed) {
   EXPECT_EQ(clock.toOurs(5000, kBoot + 5010ms), kBoot + 5010ms);
 }
 
+TEST(AutopilotClock, TellsTheAutopilotsTime) {
+  AutopilotClock clock;
+  EXPECT_FALSE(clock.toTheirs(kBoot));
+  (void)clock.toOurs(5000, kBoot + 5s);
+  EXPECT_EQ(clock.toTheirs(kBoot + 4s), 4s);
+  EXPECT_FALSE(clock.toTheirs(kBoot - 1ns));
+}
+
 TEST(AutopilotClock, IsRightToTheLeastDelay) {
   AutopilotClock clock;
   std::mt19937 random(5);

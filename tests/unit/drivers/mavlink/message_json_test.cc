@@ -102,8 +102,8 @@ TEST(MessageJson, WritesNaNAsNull) {
   OdometryMessage odometry;
   odometry.pose_covariance[0] = std::numeric_limits<float>::quiet_NaN();
   odometry.velocity_m_s.x() = std::numeric_limits<float>::quiet_NaN();
-  const json fields = json::parse(toJson(odometry, 1'762'000'000'123'456ULL));
-  EXPECT_EQ(fields["time_usec"], 1'762'000'000'123'456ULL);
+  const json fields = json::parse(toJson(odometry, 7'123'456'789ns));
+  EXPECT_EQ(fields["time_usec"], 7'123'456);
   EXPECT_TRUE(fields["pose_covariance"][0].is_null());
   EXPECT_EQ(fields["pose_covariance"].size(), 21U);
   EXPECT_TRUE(fields["vx"].is_null());
