@@ -51,6 +51,8 @@ AutopilotProcess::AutopilotProcess(const std::vector<std::string>& arguments) {
 
 AutopilotProcess::~AutopilotProcess() {
   close(orders_);  // it ends with its input
+  std::array<char, 65536> unread{};
+  while (::read(output_, unread.data(), unread.size()) > 0) continue;
   close(output_);
   if (pid_ > 0) waitpid(pid_, nullptr, 0);
 }
