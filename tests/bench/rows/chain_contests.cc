@@ -47,8 +47,7 @@ Contest locateContest(std::shared_ptr<const ChainFixture> fixture, const Walker&
 
 Contest cycleContest(std::shared_ptr<const ChainFixture> fixture, const std::vector<Walker>& walkers,
                      const std::string& name, BodyPointSet points_B) {
-  const auto cycle = std::make_shared<Cycle>(fixture->before, ChainSnapshot{}, QueryScratch{},
-                                             std::vector<QueryReply>(points_B->size()));
+  const auto cycle = std::make_shared<Cycle>(Cycle{fixture->before, {}, {}, std::vector<QueryReply>(points_B->size())});
   Contest contest{.name = name,
                   .contestants = {{.name = "nanomap",
                                    .run =

@@ -51,8 +51,8 @@ Contest correctionContest(std::shared_ptr<const ChainFixture> fixture) {
   ChainSnapshot unused;
   fixture->insertLast(chain, unused);
   const Correction window = driftingWindow(*fixture, chain.poses());
-  const auto corrected = std::make_shared<Corrected>(
-      std::move(chain), window, SlerpCorrection(std::move(stamps), fixture->flight.camera->parameters().T_B_C));
+  const auto corrected = std::make_shared<Corrected>(Corrected{
+      std::move(chain), window, SlerpCorrection(std::move(stamps), fixture->flight.camera->parameters().T_B_C)});
 
   const auto contestant = [&](const char* name, auto apply) {
     return Contestant{.name = name, .items = kRepeats, .run = [fixture, corrected, apply] {
