@@ -93,6 +93,14 @@ Chain::ViewOutcome Chain::addView(ViewPtr view) {
   return outcome;
 }
 
+void Chain::cover(Station& station, const CorrectionField::Delta& delta) const {
+  if (delta.coverage == CorrectionField::Coverage::kNone) return;
+  station.coverage = delta.coverage;
+  station.correction_serial = correction_serial_;
+  station.world_epoch = last_correction_->epoch;
+  station.T_Wnew_Wold = delta.T_Wnew_Wold;
+}
+
 CorrectionVerdict Chain::addCorrection(const Correction& correction) {
   const CorrectionVerdict verdict = tryCorrection(correction);
   ++counters_.corrections[static_cast<std::size_t>(verdict)];
@@ -107,17 +115,21 @@ CorrectionVerdict Chain::tryCorrection(const Correction& correction) {
     const bool same_world = correction.epoch == last_correction_->epoch;
     if (same_world && correction.sequence <= last_correction_->sequence) return CorrectionVerdict::kOutOfOrder;
   }
-  CorrectionField field(correction, poses_);
-  if (field.empty()) return CorrectionVerdict::kNoOverlap;
+  next_correction_.assign(correction, poses_);
+  if (next_correction_.empty()) return CorrectionVerdict::kNoOverlap;
 
-  counters_.correction_poses_unmatched += correction.poses.size() - field.anchorCount();
+  std::swap(correction_, next_correction_);
+  counters_.correction_poses_unmatched += correction.poses.size() - correction_.anchorCount();
   last_correction_ = {correction.epoch, correction.sequence};
-  correction_ = std::move(field);
   ++correction_serial_;
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    applyCorrection(links_[i].station);
-    if (i > 0) correctEdge(links_[i], links_[i - 1]);
+  CorrectionField::Walk walk(correction_);
+  // Pass by pass, as CorrectionField::assign().
+  for (std::size_t i = links_.size(); i-- > 0;) {
+    Station& station = links_[i].station;
+    cover(station, walk.deltaAt(station.stamp, station.epoch));
   }
+  for (std::size_t i = 0; i < links_.size(); ++i) links_[i].station.correct();
+  for (std::size_t i = 1; i < links_.size(); ++i) correctEdge(links_[i], links_[i - 1]);
   return CorrectionVerdict::kAccepted;
 }
 
@@ -128,7 +140,7 @@ void Chain::correctEdge(Link& older, const Link& newer) {
   const bool replace = inside(older.station) && inside(newer.station);
   const bool join = !older.T_this_newer;
   if (!replace && !join) return;
-  older.T_this_newer = edgeBetween(older, newer);
+  older.T_this_newer = edgeBetween(older.station, newer.station);
   if (older.T_this_newer) ++counters_.edges_corrected;
 }
 
@@ -184,9 +196,9 @@ void Chain::walkEdges(Visitor&& visit) const {
     Edge edge;
     std::optional<Mat3> increment_W_m2 = link.increment_covariance_W_m2;
     if (i == 0) {
-      const auto T_Bold_B = relative(link.station, stationAt(body.stamp, body.T_W_B, body.epoch));
-      if (!T_Bold_B) return;
-      edge.T_older_newer = cameraFromBody(link) * *T_Bold_B;
+      const auto T_C_B = edgeBetween(link.station, stationAt(body.stamp, body.T_W_B, body.epoch));
+      if (!T_C_B) return;
+      edge.T_older_newer = *T_C_B;
       increment_W_m2 = incrementBetween(link.station.stamp, now);
     } else {
       if (!link.T_this_newer) return;
@@ -198,7 +210,7 @@ void Chain::walkEdges(Visitor&& visit) const {
         increment_W_m2
             ? *increment_W_m2
             : Mat3((drift.variance_W(now - link.station.stamp) - drift.variance_W(now - newer_stamp)).asDiagonal());
-    edge.covariance_older_m2 = inCamera(link.station.T_W_B_original * bodyFromCamera(link), covariance_W_m2);
+    edge.covariance_older_m2 = inCamera(link.station.T_W_S_original, covariance_W_m2);
     visit(link, edge);
     newer_stamp = link.station.stamp;
   }
@@ -210,42 +222,27 @@ std::optional<Mat3> Chain::incrementBetween(Time older, Time newer) const {
   return poses_.accumulatedCovariance(older, newer);
 }
 
-Chain::Station Chain::stationAt(Time stamp, const Pose& T_W_B_original, std::uint32_t epoch) const {
-  Station station{
-      .stamp = stamp, .epoch = epoch, .T_W_B_original = T_W_B_original, .world_epoch = epoch, .T_W_B = T_W_B_original};
-  applyCorrection(station);
+Chain::Station Chain::stationAt(Time stamp, const Pose& T_W_S_original, std::uint32_t epoch) const {
+  Station station{.stamp = stamp,
+                  .epoch = epoch,
+                  .T_W_S_original = T_W_S_original,
+                  .world_epoch = epoch,
+                  .T_Wnew_Wold = {},
+                  .T_W_S = T_W_S_original};
+  cover(station, correction_.deltaAt(stamp, epoch));
+  station.correct();
   return station;
 }
 
-void Chain::applyCorrection(Station& station) const {
-  if (!correction_) return;
-  const auto corrected = correction_->apply(station.stamp, station.T_W_B_original, station.epoch);
-  if (corrected.coverage == CorrectionField::Coverage::kNone) return;
-  station.coverage = corrected.coverage;
-  station.correction_serial = correction_serial_;
-  station.world_epoch = last_correction_->epoch;
-  station.T_W_B = corrected.T_W_B;
-}
-
-std::optional<Pose> Chain::relative(const Station& older, const Station& newer) {
+std::optional<Pose> Chain::edgeBetween(const Station& older, const Station& newer) {
   const bool same_correction = older.correction_serial == newer.correction_serial;
   const bool same_world = older.world_epoch == newer.world_epoch;
-  if (same_correction && same_world) return older.T_W_B.inverse() * newer.T_W_B;
+  if (same_correction && same_world) return relativePose(older.T_W_S, newer.T_W_S);
   // A window that reaches only one of the two says nothing about the motion between them.
-  if (older.epoch == newer.epoch) return older.T_W_B_original.inverse() * newer.T_W_B_original;
-  if (same_world) return older.T_W_B.inverse() * newer.T_W_B;
+  if (older.epoch == newer.epoch) return relativePose(older.T_W_S_original, newer.T_W_S_original);
+  if (same_world) return relativePose(older.T_W_S, newer.T_W_S);
   return std::nullopt;
 }
-
-std::optional<Pose> Chain::edgeBetween(const Link& older, const Link& newer) {
-  const auto T_Bold_Bnew = relative(older.station, newer.station);
-  if (!T_Bold_Bnew) return std::nullopt;
-  return cameraFromBody(older) * *T_Bold_Bnew * bodyFromCamera(newer);
-}
-
-const Pose& Chain::bodyFromCamera(const Link& link) { return link.view->camera().parameters().T_B_C; }
-
-Pose Chain::cameraFromBody(const Link& link) { return bodyFromCamera(link).inverse(); }
 
 std::size_t Chain::admitWaiting() {
   const std::uint64_t inserted_before = counters_.views_inserted;
@@ -272,11 +269,12 @@ Chain::ViewOutcome Chain::admit(const ViewPtr& view) {
     links_.popBack();
     ++counters_.views_retired;
   }
-  links_.pushFront({view, stationAt(view->stamp(), pose.T_W_B, pose.epoch), std::nullopt, std::nullopt});
+  const Pose T_W_C = pose.T_W_B * view->camera().parameters().T_B_C;
+  links_.pushFront({view, stationAt(view->stamp(), T_W_C, pose.epoch), std::nullopt, std::nullopt});
   ++counters_.views_inserted;
   if (links_.size() > 1) {
     Link& older = links_[1];
-    older.T_this_newer = edgeBetween(older, links_[0]);
+    older.T_this_newer = edgeBetween(older.station, links_[0].station);
     older.increment_covariance_W_m2 = incrementBetween(older.station.stamp, view->stamp());
     if (parameters_.drift.use_increments && !older.increment_covariance_W_m2) ++counters_.increments_missing;
   }

@@ -62,7 +62,8 @@ struct Edge {
 /// NanoMap's data structure (paper IV.B): newest-first pairs of (edge, view), with views that wait for their pose.
 /// Edges are primary; nothing here has one world frame. Insertion and removal of a view are O(1), a correction is
 /// linear in the views and corrected poses.
-/// Threads: one (stage T3). Readers get snapshots. Allocates at construction, and when a correction comes in.
+/// Threads: one (stage T3). Readers get snapshots. Allocates at construction, and for corrections with more poses than
+/// ever before.
 class Chain {
  public:
   /// @throws std::invalid_argument naming the parameter
@@ -99,19 +100,24 @@ class Chain {
   [[nodiscard]] const ChainCounters& counters() const { return counters_; }
 
  private:
-  /// A moment of the vehicle: its original pose, and where the last correction that reached it puts it.
+  /// What is at one end of an edge, the body or a view's camera: its original pose, and where the last correction that
+  /// reached it puts it.
   struct Station {
+    /// Makes the corrected pose, after a new delta.
+    void correct() { T_W_S = T_Wnew_Wold * T_W_S_original; }
+
     Time stamp{};
     std::uint32_t epoch = 0;  ///< of the original
-    Pose T_W_B_original;
+    Pose T_W_S_original;
     CorrectionField::Coverage coverage = CorrectionField::Coverage::kNone;
     std::uint64_t correction_serial = 0;  ///< of that correction, 0 without one
     std::uint32_t world_epoch = 0;        ///< of the pose below
-    Pose T_W_B;                           ///< corrected, or the original without a correction
+    Pose T_Wnew_Wold;                     ///< of that correction
+    Pose T_W_S;                           ///< corrected, or the original without a correction
   };
   struct Link {
     ViewPtr view;
-    Station station;
+    Station station;                   ///< of the view's camera
     std::optional<Pose> T_this_newer;  ///< to the next newer view's camera; empty if cut by a jump, or if newest
     std::optional<Mat3> increment_covariance_W_m2;  ///< of that edge, from the messages
   };
@@ -121,16 +127,14 @@ class Chain {
   ViewOutcome drop(ViewDrop reason);
 
   [[nodiscard]] CorrectionVerdict tryCorrection(const Correction& correction);
-  void applyCorrection(Station& station) const;
+  /// Remembers what moves `station`; its corrected pose is still to be made.
+  void cover(Station& station, const CorrectionField::Delta& delta) const;
   void correctEdge(Link& older, const Link& newer);
 
-  [[nodiscard]] Station stationAt(Time stamp, const Pose& T_W_B_original, std::uint32_t epoch) const;
+  [[nodiscard]] Station stationAt(Time stamp, const Pose& T_W_S_original, std::uint32_t epoch) const;
   [[nodiscard]] std::optional<Mat3> incrementBetween(Time older, Time newer) const;
-  /// T_Bolder_Bnewer, or empty if the world jumped between the two and no correction tells how.
-  [[nodiscard]] static std::optional<Pose> relative(const Station& older, const Station& newer);
-  [[nodiscard]] static std::optional<Pose> edgeBetween(const Link& older, const Link& newer);
-  [[nodiscard]] static const Pose& bodyFromCamera(const Link& link);
-  [[nodiscard]] static Pose cameraFromBody(const Link& link);
+  /// T_older_newer, or empty if the world jumped between the two and no correction tells how.
+  [[nodiscard]] static std::optional<Pose> edgeBetween(const Station& older, const Station& newer);
   template <class Visitor>
   void walkEdges(Visitor&& visit) const;
 
@@ -143,7 +147,8 @@ class Chain {
   PoseBuffer poses_;
   RingBuffer<Link> links_;       ///< newest at the front
   RingBuffer<ViewPtr> waiting_;  ///< oldest at the front
-  std::optional<CorrectionField> correction_;
+  CorrectionField correction_;
+  CorrectionField next_correction_;      ///< room for the one that comes in
   std::uint64_t correction_serial_ = 0;  ///< counts the accepted corrections
   std::optional<CorrectionId> last_correction_;
   ChainCounters counters_;

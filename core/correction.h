@@ -42,25 +42,45 @@ inline constexpr std::size_t kCorrectionVerdictCount = 8;
 /// A correction as a field of deltas over time: `T_Wnew_Wold(t)`, such that the corrected pose is the delta times the
 /// original. Deltas, not poses, are interpolated, so that a sparse window (2 Hz) keeps the motion between its stamps.
 /// Behind the window's end the last delta is carried on: a correction is always late.
-/// Threads: immutable.
+/// Threads: one; any number of readers while it is not assigned.
 class CorrectionField {
  public:
+  /// Corrects nothing.
+  CorrectionField() = default;
+
   /// Pairs each corrected pose with the original one at its stamp; those without an original are left out.
   /// @pre checkCorrection() accepted it
-  CorrectionField(const Correction& correction, const PoseBuffer& originals);
+  CorrectionField(const Correction& correction, const PoseBuffer& originals) { assign(correction, originals); }
+
+  /// The same, in place of what there was. Allocates for more corrected poses than ever before.
+  void assign(const Correction& correction, const PoseBuffer& originals);
 
   enum class Coverage : std::uint8_t {
     kNone,     ///< before the window, or of a world that the window does not reach
     kInside,   ///< interpolated inside the window
     kCarried,  ///< newer than the window: the last delta
   };
-  struct Corrected {
+  struct Delta {
     Coverage coverage = Coverage::kNone;
-    Pose T_W_B;  ///< in the correction's world; valid if covered
+    Pose T_Wnew_Wold;  ///< identity unless covered
   };
 
-  /// The corrected version of an original pose.
-  [[nodiscard]] Corrected apply(Time stamp, const Pose& T_W_B_original, std::uint32_t epoch) const;
+  /// What to put before an original pose of that epoch, the body's or a camera's.
+  [[nodiscard]] Delta deltaAt(Time stamp, std::uint32_t epoch) const;
+
+  /// deltaAt() for one stamp after another, in time that is linear in the corrected poses passed over.
+  class Walk {
+   public:
+    /// Borrows the field, which stays as it is.
+    explicit Walk(const CorrectionField& field) : field_(field) {}
+
+    /// @pre `stamp` is not before the one asked for last
+    [[nodiscard]] Delta deltaAt(Time stamp, std::uint32_t epoch);
+
+   private:
+    const CorrectionField& field_;
+    std::size_t after_ = 0;  ///< the first anchor that is not before the stamp asked for last
+  };
 
   [[nodiscard]] bool empty() const { return anchors_.empty(); }
   [[nodiscard]] std::size_t anchorCount() const { return anchors_.size(); }
@@ -72,8 +92,12 @@ class CorrectionField {
     Pose T_Wnew_Wold;
   };
 
-  std::uint32_t epoch_;
+  /// @param after  the first anchor that is not before `stamp`
+  [[nodiscard]] Delta deltaBefore(std::size_t after, Time stamp, std::uint32_t epoch) const;
+
+  std::uint32_t epoch_ = 0;
   std::vector<Anchor> anchors_;
+  std::vector<Pose> originals_;  ///< at the anchors: room for assign()
 };
 
 }  // namespace nanomap

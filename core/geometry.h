@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "core/slerp.h"
+
 namespace nanomap {
 
 using Vec3 = Eigen::Vector3d;
@@ -28,17 +30,29 @@ struct Pose {
   bool operator==(const Pose&) const = default;  ///< exact: a quaternion and its negative differ
 };
 
+/// What rounding took off a unit quaternion, put back: one Newton step for the norm, without root or division. An
+/// error e of the norm becomes 1.5 e^2.
+[[nodiscard]] inline Quat unitAgain(const Quat& nearly_unit) {
+  return Quat((1.5 - 0.5 * nearly_unit.squaredNorm()) * nearly_unit.coeffs());
+}
+
 [[nodiscard]] inline Pose operator*(const Pose& T_A_B, const Pose& T_B_C) {
-  return {(T_A_B.rotation * T_B_C.rotation).normalized(), T_A_B.rotation * T_B_C.translation_m + T_A_B.translation_m};
+  return {unitAgain(T_A_B.rotation * T_B_C.rotation), T_A_B.rotation * T_B_C.translation_m + T_A_B.translation_m};
 }
 
 [[nodiscard]] inline Vec3 operator*(const Pose& T_A_B, const Vec3& p_B) {
   return T_A_B.rotation * p_B + T_A_B.translation_m;
 }
 
+/// T_A_B, from A and B in one frame W: T_A_W * T_W_B.
+[[nodiscard]] inline Pose relativePose(const Pose& T_W_A, const Pose& T_W_B) {
+  const Quat R_A_W = T_W_A.rotation.conjugate();
+  return {unitAgain(R_A_W * T_W_B.rotation), R_A_W * (T_W_B.translation_m - T_W_A.translation_m)};
+}
+
 /// Linear in translation, shortest-arc slerp in rotation. `weight` 0 gives `from`, 1 gives `to`.
 [[nodiscard]] inline Pose interpolate(const Pose& from, const Pose& to, double weight) {
-  return {from.rotation.slerp(weight, to.rotation).normalized(),
+  return {slerp(from.rotation, to.rotation, weight),
           from.translation_m + weight * (to.translation_m - from.translation_m)};
 }
 

@@ -71,17 +71,27 @@ PoseVerdict PoseBuffer::insert(BodyPose pose) {
 }
 
 PoseBuffer::Lookup PoseBuffer::interpolate(Time stamp) const {
-  const std::size_t after = lowerBound(stamp);
-  if (after == poses_.size()) return {LookupStatus::kAfterNewest, {}, 0};
+  const Bracket bracket = bracketBefore(lowerBound(stamp), stamp);
+  if (bracket.status != LookupStatus::kFound) return {bracket.status, {}, 0};
+  return {LookupStatus::kFound, bracket.T_W_B(), bracket.to->epoch};
+}
+
+PoseBuffer::Bracket PoseBuffer::Walk::to(Time stamp) {
+  std::size_t after = after_ ? *after_ : poses_.lowerBound(stamp);
+  while (after < poses_.size() && poses_.poses_[after].stamp < stamp) ++after;
+  after_ = after;
+  return poses_.bracketBefore(after, stamp);
+}
+
+PoseBuffer::Bracket PoseBuffer::bracketBefore(std::size_t after, Time stamp) const {
+  if (after == poses_.size()) return {.status = LookupStatus::kAfterNewest};
   const BodyPose& to = poses_[after];
-  if (to.stamp == stamp) return {LookupStatus::kFound, to.T_W_B, to.epoch};
-  if (after == 0) return {LookupStatus::kBeforeOldest, {}, 0};
+  if (to.stamp == stamp) return {LookupStatus::kFound, &to, &to, 1.0};
+  if (after == 0) return {.status = LookupStatus::kBeforeOldest};
   const BodyPose& from = poses_[after - 1];
-  if (from.epoch != to.epoch) return {LookupStatus::kBetweenEpochs, {}, 0};
-  if (to.stamp - from.stamp > max_gap_) return {LookupStatus::kGap, {}, 0};
-  const double weight =
-      static_cast<double>((stamp - from.stamp).count()) / static_cast<double>((to.stamp - from.stamp).count());
-  return {LookupStatus::kFound, nanomap::interpolate(from.T_W_B, to.T_W_B, weight), from.epoch};
+  if (from.epoch != to.epoch) return {.status = LookupStatus::kBetweenEpochs};
+  if (to.stamp - from.stamp > max_gap_) return {.status = LookupStatus::kGap};
+  return {LookupStatus::kFound, &from, &to, shareOf(stamp, from.stamp, to.stamp)};
 }
 
 std::optional<Mat3> PoseBuffer::accumulatedCovariance(Time from, Time to) const {

@@ -65,7 +65,34 @@ class PoseBuffer {
     std::uint32_t epoch = 0;  ///< valid if found
   };
 
-  /// Pose at `stamp`: linear in translation, slerp in rotation.
+  /// The poses around a stamp. Borrows them.
+  struct Bracket {
+    LookupStatus status = LookupStatus::kBeforeOldest;
+    const BodyPose* from = nullptr;  ///< of one epoch with `to`, and the same pose at its own stamp; valid if found
+    const BodyPose* to = nullptr;    ///< valid if found
+    double weight = 1.0;             ///< of `to`
+
+    /// Linear in translation, slerp in rotation. @pre found
+    [[nodiscard]] Pose T_W_B() const {
+      return from == to ? to->T_W_B : nanomap::interpolate(from->T_W_B, to->T_W_B, weight);
+    }
+  };
+
+  /// Looks up one stamp after another, in time that is linear in the poses passed over.
+  class Walk {
+   public:
+    /// Borrows the buffer, which stays as it is.
+    explicit Walk(const PoseBuffer& poses) : poses_(poses) {}
+
+    /// @pre `stamp` is not before the one asked for last
+    [[nodiscard]] Bracket to(Time stamp);
+
+   private:
+    const PoseBuffer& poses_;
+    std::optional<std::size_t> after_;  ///< lower bound of the stamp asked for last
+  };
+
+  /// Pose at `stamp`.
   [[nodiscard]] Lookup interpolate(Time stamp) const;
 
   /// Sum of the stream's increment covariances [m^2, W] over `from .. to`, in proportion where an interval is cut.
@@ -80,6 +107,8 @@ class PoseBuffer {
  private:
   /// Index of the first pose with a stamp not before `stamp`.
   [[nodiscard]] std::size_t lowerBound(Time stamp) const;
+  /// @param after  lowerBound(stamp)
+  [[nodiscard]] Bracket bracketBefore(std::size_t after, Time stamp) const;
 
   RingBuffer<BodyPose> poses_;
   Duration max_gap_;

@@ -25,6 +25,11 @@ using Time = std::chrono::time_point<Timeline, Duration>;
 /// [s]. For display, rates and interpolation weights; never to identify a moment.
 [[nodiscard]] constexpr double toSeconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
+/// How far from `from` to `to` a moment lies: 0 at `from`, 1 at `to`. @pre `from` is before `to`
+[[nodiscard]] constexpr double shareOf(Time moment, Time from, Time to) {
+  return static_cast<double>((moment - from).count()) / static_cast<double>((to - from).count());
+}
+
 /// Nearest nanosecond to `seconds` [s].
 [[nodiscard]] inline Duration fromSeconds(double seconds) { return Duration(std::llround(seconds * 1e9)); }
 

@@ -124,5 +124,25 @@ TEST(Allocation, PosesAndSnapshotsIntoUsedStorageAllocateNothing) {
   EXPECT_EQ(test::allocationCount(), before);
 }
 
+TEST(Allocation, CorrectionsOfSizesSeenBeforeAllocateNothing) {
+  const auto camera = test::model(test::smallCamera());
+  Chain chain(ChainParameters{});
+  Correction correction;
+  for (int i = 0; i < 100; ++i) {
+    const BodyPose pose{.stamp = Time(milliseconds(10 * i)), .T_W_B = {}, .increment = {}};
+    (void)chain.addPose(pose);
+    if (i % 3 == 0) (void)chain.addView(test::viewOf(test::flatImage(*camera, 5000, pose.stamp), camera));
+    correction.poses.push_back({pose.stamp, pose.T_W_B});
+  }
+  const auto correct = [&] {
+    ++correction.sequence;
+    EXPECT_EQ(chain.addCorrection(correction), CorrectionVerdict::kAccepted);
+  };
+  for (int i = 0; i < 2; ++i) correct();  // one field is in force, one has room for the next
+  const std::size_t before = test::allocationCount();
+  for (int i = 0; i < 100; ++i) correct();
+  EXPECT_EQ(test::allocationCount(), before);
+}
+
 }  // namespace
 }  // namespace nanomap

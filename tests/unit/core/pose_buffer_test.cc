@@ -57,6 +57,26 @@ TEST(PoseBuffer, SlerpsTheShortWayRound) {
   EXPECT_LT(poses.interpolate(at(50)).T_W_B.rotation.angularDistance(expected), 1e-12);
 }
 
+TEST(PoseBuffer, AWalkFindsWhatEveryLookupFinds) {
+  PoseBuffer poses = buffer();
+  PoseBuffer::Walk over_nothing(poses);
+  EXPECT_EQ(over_nothing.to(at(0)).status, LookupStatus::kAfterNewest);
+  for (const int ms : {100, 200, 1100, 1200}) {
+    EXPECT_EQ(poses.insert(poseAt(ms, ms, ms < 1200 ? 0 : 1)), Verdict::kAccepted);
+  }
+  PoseBuffer::Walk walk(poses);
+  for (int ms = 0; ms <= 1300; ms += 25) {
+    const PoseBuffer::Lookup expected = poses.interpolate(at(ms));
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      const PoseBuffer::Bracket got = walk.to(at(ms));
+      ASSERT_EQ(got.status, expected.status) << ms;
+      if (got.status != LookupStatus::kFound) continue;
+      EXPECT_EQ(got.T_W_B(), expected.T_W_B) << ms;
+      EXPECT_EQ(got.to->epoch, expected.epoch) << ms;
+    }
+  }
+}
+
 TEST(PoseBuffer, JudgesRepeatedStamps) {
   PoseBuffer poses = buffer();
   EXPECT_EQ(poses.insert(poseAt(10, 1.0)), Verdict::kAccepted);
