@@ -16,6 +16,7 @@ DepthTiles::DepthTiles(const CameraModel& camera)
       rows_(tilesAlong(camera.height())),
       least_(tileAt(0, rows_), kNoDepth),
       greatest_(tileAt(0, rows_), 0),
+      cover_(tileAt(0, rows_), kNoDepth),
       gaps_(tileAt(0, rows_)) {
   Gaps everywhere;
   everywhere.fill(0xFF);
@@ -59,7 +60,12 @@ void DepthTiles::assign(const DepthImage& image, const CameraModel& camera) {
         const std::size_t count = std::min(kEdge, columns - first);
         least_[tile] = std::ranges::min(std::span(least).subspan(first, count));
         greatest_[tile] = std::ranges::max(std::span(greatest).subspan(first, count));
-        for (std::size_t u = 0; u < count; ++u) gaps_[tile][u] = static_cast<std::uint8_t>(gaps[first + u]);
+        std::uint32_t any_gap = 0;
+        for (std::size_t u = 0; u < count; ++u) {
+          gaps_[tile][u] = static_cast<std::uint8_t>(gaps[first + u]);
+          any_gap |= gaps[first + u];
+        }
+        cover_[tile] = any_gap == 0 ? greatest_[tile] : kNoDepth;
       }
     }
   }

@@ -35,6 +35,10 @@ class DepthTiles {
   /// The same. A tile without any depth holds 0.
   [[nodiscard]] const std::vector<std::uint16_t>& greatest() const { return greatest_; }
 
+  /// The same, but kNoDepth for a tile with a pixel that carries no depth: what is not nearer than this is occluded,
+  /// whichever pixel of the tile it falls on.
+  [[nodiscard]] const std::vector<std::uint16_t>& cover() const { return cover_; }
+
   /// The pixels of a tile that carry no depth: a byte for each column, a bit for each row.
   using Gaps = std::array<std::uint8_t, kEdge_px>;
   /// The same order as above.
@@ -49,6 +53,7 @@ class DepthTiles {
   int rows_;
   std::vector<std::uint16_t> least_;
   std::vector<std::uint16_t> greatest_;
+  std::vector<std::uint16_t> cover_;
   std::vector<Gaps> gaps_;
 };
 

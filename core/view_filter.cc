@@ -67,6 +67,7 @@ void setLane(ViewLanes& lanes, std::size_t lane, const SnapshotView& view) {
   lanes.last_row[lane] = static_cast<float>(camera.height() - 1);
   lanes.counts_per_m[lane] = rounded(1.0 / (static_cast<double>(camera.depth(1)) * kRoundingUp));
   lanes.tile_columns[lane] = view.view->tiles().columns();
+  lanes.cover[lane] = view.view->tiles().cover().data();
   lanes.greatest[lane] = view.view->tiles().greatest().data();
   lanes.gaps[lane] = view.view->tiles().gaps().data();
   lanes.view[lane] = view.view.get();
@@ -76,6 +77,7 @@ void setLane(ViewLanes& lanes, std::size_t lane, const SnapshotView& view) {
 ViewLanes withoutViews() {
   ViewLanes lanes{};
   lanes.near_m.fill(std::numeric_limits<float>::infinity());
+  lanes.cover.fill(&kNoGreatest);
   lanes.greatest.fill(&kNoGreatest);
   lanes.gaps.fill(&kNoGaps);
   return lanes;

@@ -25,7 +25,8 @@ struct alignas(64) ViewLanes {
   Floats last_column, last_row;
   Floats counts_per_m;  ///< raw depth
   std::array<std::int32_t, kViewLanes> tile_columns;
-  std::array<const std::uint16_t*, kViewLanes> greatest;  ///< of DepthTiles, as the gaps
+  std::array<const std::uint16_t*, kViewLanes> cover;  ///< of DepthTiles, as the next two
+  std::array<const std::uint16_t*, kViewLanes> greatest;
   std::array<const DepthTiles::Gaps*, kViewLanes> gaps;
   std::array<const View*, kViewLanes> view;
   std::uint32_t tiled = 0;  ///< bits of the lanes whose cells are pixels: no distortion

@@ -1,6 +1,9 @@
 #include "core/view_scan.h"
 
+#include <bit>
+
 #include "core/depth_tiles.h"
+#include "core/simd.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/view_scan.cc"
@@ -59,7 +62,7 @@ class VectorProbe {
     // Occlusion first: it rules out most and costs least.
     const std::uint32_t inside = bits(hn::Ge(hn::Min(in_range, in_sides), zero));
     findCells(z, from_left, from_top, inside, out);
-    const std::uint32_t visible = inside & ~behindTiles(out);
+    const std::uint32_t visible = inside & ~behindTiles(inside, out);
     if (visible == 0) return;
 
     const FloatVec half_x = leastHalfSize(0);
@@ -107,20 +110,30 @@ class VectorProbe {
   }
 
   /// Bits of the lanes where the pixel certainly carries a depth and the mean is not nearer than anything in its tile.
-  HWY_INLINE std::uint32_t behindTiles(ProbedLanes& out) const {
-    constexpr std::uint32_t kInTile = DepthTiles::kEdge_px - 1;
-    std::uint32_t behind = 0;
-    std::uint32_t gaps = 0;
+  HWY_INLINE std::uint32_t behindTiles(std::uint32_t inside, ProbedLanes& out) const {
+    // Most tiles have no gaps: one value of each decides.
+    std::uint32_t covered = 0;
     for (std::size_t i = 0; i < laneCount(); ++i) {
       const std::size_t lane = first_ + i;
-      const std::int32_t tile = out.tile[lane];
-      const std::uint32_t column_gaps = views_.gaps[lane][tile][static_cast<std::uint32_t>(out.column[lane]) & kInTile];
-      gaps |= (column_gaps >> (static_cast<std::uint32_t>(out.row[lane]) & kInTile) & 1U) << i;
-      behind |= static_cast<std::uint32_t>(out.raw[lane] >= views_.greatest[lane][tile]) << i;
+      covered |= static_cast<std::uint32_t>(out.raw[lane] >= views_.cover[lane][out.tile[lane]]) << i;
     }
-    const std::uint32_t with_depth = (out.in_cell & views_.tiled) >> first_ & ~gaps;
-    out.with_depth |= with_depth << first_;
-    return with_depth & behind;
+    const std::uint32_t certain = (out.in_cell & views_.tiled) >> first_ & inside;
+    std::uint32_t behind = certain & covered;
+    for (std::uint32_t rest = certain & ~covered; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
+      const std::size_t lane = first_ + i;
+      if (isGap(lane, out)) continue;
+      out.with_depth |= 1U << lane;
+      behind |= static_cast<std::uint32_t>(out.raw[lane] >= views_.greatest[lane][out.tile[lane]]) << i;
+    }
+    return behind;
+  }
+
+  HWY_INLINE bool isGap(std::size_t lane, const ProbedLanes& out) const {
+    constexpr std::uint32_t kInTile = DepthTiles::kEdge_px - 1;
+    const DepthTiles::Gaps& gaps = views_.gaps[lane][out.tile[lane]];
+    const std::uint32_t column_gaps = gaps[static_cast<std::uint32_t>(out.column[lane]) & kInTile];
+    return (column_gaps >> (static_cast<std::uint32_t>(out.row[lane]) & kInTile) & 1U) != 0;
   }
 
   HWY_INLINE FloatVec load(const ViewLanes::Floats& lanes) const { return hn::Load(Float(), lanes.data() + first_); }

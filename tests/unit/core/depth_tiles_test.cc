@@ -27,10 +27,12 @@ void expectBoundsOf(const DepthImage& image, const CameraModel& camera) {
     for (int column = 0; column < tiles.columns(); ++column) {
       std::uint16_t least = DepthTiles::kNoDepth;
       std::uint16_t greatest = 0;
+      bool any_none = false;
       for (int v = row * kEdge; v < std::min((row + 1) * kEdge, image.height_px); ++v) {
         for (int u = column * kEdge; u < std::min((column + 1) * kEdge, image.width_px); ++u) {
           const std::uint16_t raw = image.pixels[static_cast<std::size_t>(v * image.width_px + u)];
           const bool none = camera.classify(raw) == DepthReading::kNone;
+          any_none = any_none || none;
           least = std::min(least, none ? DepthTiles::kNoDepth : raw);
           greatest = std::max(greatest, none ? std::uint16_t{0} : raw);
           const std::uint8_t gaps = tiles.gaps()[tiles.tileAt(column, row)][static_cast<std::size_t>(u % kEdge)];
@@ -39,6 +41,7 @@ void expectBoundsOf(const DepthImage& image, const CameraModel& camera) {
       }
       ASSERT_EQ(tiles.least()[tiles.tileAt(column, row)], least) << column << ' ' << row;
       ASSERT_EQ(tiles.greatest()[tiles.tileAt(column, row)], greatest) << column << ' ' << row;
+      ASSERT_EQ(tiles.cover()[tiles.tileAt(column, row)], any_none ? DepthTiles::kNoDepth : greatest);
     }
   }
 }
