@@ -15,6 +15,9 @@ struct QueryOptions {
   OcclusionTest occlusion = OcclusionTest::kMean;
   int open_window_px = 32;           ///< reach, to all sides, of the window that tells sky from a hole
   double open_range_fraction = 0.7;  ///< returns beyond this part of the range do not speak against sky
+  /// Reach of a second window, in metres beside the point: what is seen in it and is not this much farther away than the
+  /// point may be a pane's frame, which close by lies outside of a window in pixels.
+  double open_frame_m = 2.0;
 };
 
 }  // namespace nanomap

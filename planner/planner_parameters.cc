@@ -84,6 +84,7 @@ void check(const RiskParameters& risk) {
           "1 .. " + std::to_string(kMaxNeighbours));
   requireNotNegative("risk.query.open_window_px", risk.query.open_window_px);
   requireProbability("risk.query.open_range_fraction", risk.query.open_range_fraction);
+  requireNotNegative("risk.query.open_frame_m", risk.query.open_frame_m);
   for (std::size_t i = 0; i < kStatusCount; ++i) {
     requireProbability("risk.prior of '" + std::string(toString(static_cast<Status>(i))) + "'", risk.prior[i]);
   }

@@ -68,31 +68,37 @@ Section driftSection() {
 }
 
 Section querySection() {
-  return {"query",
-          "How the history is asked for the nearest obstacles.",
-          {choiceKey<IndexKind>(
-               "index",
-               "What finds the nearest points of a depth frame: image, which knows them to be an image, or FLANN's\n"
-               "k-d tree. Distances are the same, to the last bit; flann is slower by far.",
-               {{"image", IndexKind::kImage}, {"flann", IndexKind::kFlann}}, [](auto& c) -> auto& { return c.index; }),
-           integerKey(
-               "k", "Nearest measured points reported with each answer.", {1, kMaxNeighbours},
-               [](auto& c) -> auto& { return c.planner.risk.query.k; }),
-           choiceKey<OcclusionTest>(
-               "occlusion",
-               "What must lie in front of the measured depth for a point to be free: its mean, or\n"
-               "the whole footprint of its 1-sigma box in the image.",
-               {{"mean", OcclusionTest::kMean}, {"footprint", OcclusionTest::kFootprint}},
-               [](auto& c) -> auto& { return c.planner.risk.query.occlusion; }),
-           integerKey(
-               "open_window_px",
-               "A pixel without depth is sky, not a hole, if nothing near is seen within this many pixels\n"
-               "around it.",
-               {0, 1024}, [](auto& c) -> auto& { return c.planner.risk.query.open_window_px; }),
-           numberKey(
-               "open_range_fraction", "\"Near\", there, is up to this part of the camera's range.", {0.0, 1.0},
-               [](auto& c) -> auto& { return c.planner.risk.query.open_range_fraction; })},
-          {}};
+  return {
+      "query",
+      "How the history is asked for the nearest obstacles.",
+      {choiceKey<IndexKind>(
+           "index",
+           "What finds the nearest points of a depth frame: image, which knows them to be an image, or FLANN's\n"
+           "k-d tree. Distances are the same, to the last bit; flann is slower by far.",
+           {{"image", IndexKind::kImage}, {"flann", IndexKind::kFlann}}, [](auto& c) -> auto& { return c.index; }),
+       integerKey(
+           "k", "Nearest measured points reported with each answer.", {1, kMaxNeighbours},
+           [](auto& c) -> auto& { return c.planner.risk.query.k; }),
+       choiceKey<OcclusionTest>(
+           "occlusion",
+           "What must lie in front of the measured depth for a point to be free: its mean, or\n"
+           "the whole footprint of its 1-sigma box in the image.",
+           {{"mean", OcclusionTest::kMean}, {"footprint", OcclusionTest::kFootprint}},
+           [](auto& c) -> auto& { return c.planner.risk.query.occlusion; }),
+       integerKey(
+           "open_window_px",
+           "A pixel without depth is sky, not a hole, if nothing near is seen within this many pixels\n"
+           "around it.",
+           {0, 1024}, [](auto& c) -> auto& { return c.planner.risk.query.open_window_px; }),
+       numberKey(
+           "open_range_fraction", "\"Near\", there, is up to this part of the camera's range.", {0.0, 1.0},
+           [](auto& c) -> auto& { return c.planner.risk.query.open_range_fraction; }),
+       numberKey(
+           "open_frame_m",
+           "Nor is it sky, for a point, if within this distance beside the point something is seen that is no more\n"
+           "than this farther away: the frame of a pane that fills the view.",
+           {0.0, 100.0}, [](auto& c) -> auto& { return c.planner.risk.query.open_frame_m; })},
+      {}};
 }
 
 Section lcmSection() {

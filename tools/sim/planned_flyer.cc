@@ -32,6 +32,7 @@ PlannedFlyer::PlannedFlyer(const Configuration& configuration, const simulation:
       log_(log),
       pipeline_(configuration),
       horizon_(configuration.planner),
+      vehicle_radius_m_(vehicle.radius_m),
       vehicle_(vehicle, scene.mission().start_W, yawTowards(scene.mission().goal_W - scene.mission().start_W)),
       controller_({}),
       command_{Vec3::Zero(), yawTowards(scene.mission().goal_W - scene.mission().start_W)},
@@ -68,7 +69,7 @@ void PlannedFlyer::judge(const simulation::VehicleState& truth) {
   const double clearance_m = std::min(scene_.distanceToNearestObstacle(p_W), p_W.z());
   summary_.min_clearance_m = std::min(summary_.min_clearance_m, clearance_m);
   summary_.top_speed_m_s = std::max(summary_.top_speed_m_s, truth.velocity_W_m_s.norm());
-  if (clearance_m < configuration_.planner.risk.collision.vehicle_radius_m) {
+  if (clearance_m < vehicle_radius_m_) {
     summary_.outcome = Outcome::kCollision;
   } else if (horizon_.inForce() && horizon_.inForce()->reason == Reason::kAtGoal &&
              truth.velocity_W_m_s.norm() < kStandstill_m_s) {

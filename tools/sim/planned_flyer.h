@@ -20,7 +20,7 @@ namespace nanomap::sim {
 enum class Outcome : std::uint8_t {
   kUnderWay,
   kAtGoal,     ///< stands there
-  kCollision,  ///< the sphere of the vehicle's radius touched something
+  kCollision,  ///< the sphere that holds the vehicle touched something
 };
 
 [[nodiscard]] std::string_view toString(Outcome outcome);
@@ -70,6 +70,7 @@ class PlannedFlyer : public generate::Flyer {
   RecedingHorizon horizon_;
   ChainSnapshot snapshot_;
 
+  double vehicle_radius_m_;  ///< its own, whatever the configuration believes
   simulation::Multicopter vehicle_;
   simulation::PositionController controller_;
   simulation::MulticopterCommand command_;

@@ -38,6 +38,7 @@ Vec3 allowedThrust(const Vec3& acceleration_W_m_s2, const MulticopterParameters&
 
 Multicopter::Multicopter(const MulticopterParameters& parameters, const Vec3& position_W_m, double yaw_W_rad)
     : parameters_(parameters), position_W_m_(position_W_m), thrust_m_s2_(kGravity_m_s2), yaw_W_rad_(yaw_W_rad) {
+  requirePositive(parameters.radius_m, "radius_m");
   requirePositive(parameters.attitude_time_constant_s, "attitude_time_constant_s");
   requirePositive(parameters.thrust_time_constant_s, "thrust_time_constant_s");
   requirePositive(parameters.yaw_time_constant_s, "yaw_time_constant_s");

@@ -8,6 +8,7 @@ namespace nanomap::simulation {
 
 /// What a multicopter of some two kilograms does with what it is told.
 struct MulticopterParameters {
+  double radius_m = 0.4;                   ///< of the sphere that holds it
   double attitude_time_constant_s = 0.08;  ///< first-order lag of the thrust's direction
   double thrust_time_constant_s = 0.04;    ///< first-order lag of its amount
   double yaw_time_constant_s = 0.25;

@@ -22,6 +22,7 @@ class Settings:
     neighbours: int
     open_window_px: int
     open_range_fraction: float
+    open_frame_m: float
 
 
 def read_document(path: Path, overrides: list[str]) -> dict:
@@ -54,4 +55,5 @@ def read_settings(path: Path, overrides: list[str]) -> Settings:
         neighbours=query["k"],
         open_window_px=query["open_window_px"],
         open_range_fraction=query["open_range_fraction"],
+        open_frame_m=query["open_frame_m"],
     )

@@ -41,6 +41,7 @@ class View:
         self.utime, self.sequence = image.utime, image.sequence
         self.camera = camera
         self._window_px = settings.open_window_px
+        self._frame_m = settings.open_frame_m
         self._open_limit_m = settings.open_range_fraction * camera.far_m * (1 + 2 * SINGLE_PRECISION)
         counts = depth_counts(image)
         self.depth_m = counts * camera.unit_m
@@ -100,7 +101,7 @@ class View:
         is_silent[inside] = ~self.is_return[row, column]
         is_open = is_silent.copy()
         silent = np.flatnonzero(is_silent[inside])
-        is_open[inside[silent]] = [not self._something_near(row[i], column[i], up) for i in silent]
+        is_open[inside[silent]] = [not self._something_near(row[i], column[i], z[inside[i]], up) for i in silent]
         status[is_silent & ~is_open] = Status.HOLE
         settle(np.where(is_open, contained, np.inf), Status.PARTIAL)
         status[is_open & (status == UNDECIDED)] = Status.OPEN
@@ -114,12 +115,21 @@ class View:
         status[status == UNDECIDED] = Status.FREE
         return Verdicts(status, margin)
 
-    def _something_near(self, row: int, column: int, up: np.ndarray) -> bool:
-        """Whether a return in the window around the pixel, at its level or above, speaks against sky."""
-        rows, columns = np.nonzero(self._is_near[max(row - self._window_px, 0):row + self._window_px + 1,
-                                                 max(column - self._window_px, 0):column + self._window_px + 1])
-        rows += max(row - self._window_px, 0) - row
-        columns += max(column - self._window_px, 0) - column
+    def _something_near(self, row: int, column: int, z: float, up: np.ndarray) -> bool:
+        """Whether a return speaks against sky: near and in the window around the pixel, or about as far away as the
+        point and beside it like the frame of a pane."""
+        in_window = self._is_above(self._is_near, row, column, self._window_px, self._window_px, up)
+        in_frame = self._is_near & (self.depth_m <= z + self._frame_m)
+        reach_v, reach_u = (int(min(f * self._frame_m / z, 1e6)) for f in (self.camera.fy, self.camera.fx))
+        return in_window or self._is_above(in_frame, row, column, reach_v, reach_u, up)
+
+    @staticmethod
+    def _is_above(near: np.ndarray, row: int, column: int, reach_v: int, reach_u: int, up: np.ndarray) -> bool:
+        """Whether one of the pixels `near` lies in the window at the level of the pixel or above."""
+        first_row, first_column = max(row - reach_v, 0), max(column - reach_u, 0)
+        rows, columns = np.nonzero(near[first_row:row + reach_v + 1, first_column:column + reach_u + 1])
+        rows += first_row - row
+        columns += first_column - column
         length = np.hypot(up[0], up[1])
         if length < 1e-3:
             return len(rows) > 0

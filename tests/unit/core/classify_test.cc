@@ -129,7 +129,9 @@ TEST_F(Drawn, AThinBranchInTheSkyMakesItsSurroundingsAHole) {
   EXPECT_EQ(status(image, onRay(80, 60, 1.0)), Status::kFree) << "in front of the branch";
   EXPECT_EQ(status(image, onRay(80, 60, 3.0)), Status::kOccluded) << "behind it";
   EXPECT_EQ(status(image, onRay(80, 80, 3.0)), Status::kHole) << "20 pixels under it";
-  EXPECT_EQ(status(image, onRay(80, 93, 3.0)), Status::kOpen) << "33 pixels under it";
+  EXPECT_EQ(status(image, onRay(80, 93, 9.0)), Status::kOpen) << "33 pixels under it, far behind";
+  EXPECT_EQ(status(image, onRay(80, 93, 3.0)), Status::kHole) << "33 pixels, 1.2 m under it";
+  EXPECT_EQ(status(image, onRay(80, 114, 3.0)), Status::kOpen) << "54 pixels, 2 m under it";
   EXPECT_EQ(status(image, onRay(80, 58, 3.0)), Status::kOpen) << "above it";
 }
 
@@ -140,7 +142,19 @@ TEST_F(Drawn, SomethingTooNearIsNeverSky) {
   EXPECT_EQ(status(image, onRay(80, 60, 3.0)), Status::kHole);
 }
 
+/// Two metres wide, and the camera stands before it: all that is left of the wall is at the image's borders.
+TEST_F(Drawn, APaneThatFillsTheViewIsAHole) {
+  DepthImage image = flatImage(*camera_, 0);
+  paint(image, 0, 3, 0, 119, 1300);
+  paint(image, 156, 159, 0, 119, 1300);
+  EXPECT_EQ(status(image, onRay(80, 60, 1.3)), Status::kHole);
+  EXPECT_EQ(status(image, onRay(80, 60, 2.9)), Status::kOpen) << "the frame is too far aside";
+  options_.open_frame_m = 1.0;
+  EXPECT_EQ(status(image, onRay(80, 60, 1.3)), Status::kOpen);
+}
+
 TEST_F(Drawn, TheSkyWindowIsConfigured) {
+  options_.open_frame_m = 0.0;
   DepthImage image = flatImage(*camera_, 0);
   paint(image, 100, 100, 60, 60, 3000);
   EXPECT_EQ(status(image, onRay(80, 60, 5.0)), Status::kHole);

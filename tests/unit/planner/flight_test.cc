@@ -78,7 +78,7 @@ TEST_P(GlassInAWall, IsNotFlownInto) {
   }));
 }
 
-INSTANTIATE_TEST_SUITE_P(PaneWidths_m, GlassInAWall, testing::Values(1.2, 2.0, 3.0));
+INSTANTIATE_TEST_SUITE_P(PaneWidths_m, GlassInAWall, testing::Values(0.8, 1.2, 2.0));
 
 TEST(Flight, LooksAroundInsteadOfFreezingInFrontOfAWall) {
   const DrawnWorld world{{Block{{3.0, -40.0, 0.0}, {3.5, 40.0, 12.0}}}};
@@ -88,7 +88,7 @@ TEST(Flight, LooksAroundInsteadOfFreezingInFrontOfAWall) {
   double highest_rad = flight.yaw_W_rad();
   for (const Time end = flight.now() + std::chrono::seconds(8); flight.now() < end;) {
     const Decision decision = flight.step(goalAt({30.0, 0.0, 2.0}));
-    EXPECT_EQ(decision.reason, Reason::kBlocked);
+    EXPECT_TRUE(decision.brake_verified || decision.reason == Reason::kRetreating);
     lowest_rad = std::min(lowest_rad, flight.yaw_W_rad());
     highest_rad = std::max(highest_rad, flight.yaw_W_rad());
   }

@@ -185,7 +185,7 @@ TEST(PrimitiveLibrary, HorizontalLimitGrowsWithSpeedUpToItsFullValue) {
 
 TEST(Horizon, IsTheTimeToFlyItsDistanceWithinItsLimits) {
   const HorizonParameters horizon;
-  EXPECT_DOUBLE_EQ(horizon.at(0.0), 2.0);
+  EXPECT_DOUBLE_EQ(horizon.at(0.0), 1.5);
   EXPECT_DOUBLE_EQ(horizon.at(8.0), 1.25);
   EXPECT_DOUBLE_EQ(horizon.at(40.0), 1.0);
 }

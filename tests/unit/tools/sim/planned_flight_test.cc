@@ -68,8 +68,12 @@ TEST_F(PlannedFlight, TheSameOptionsFlyTheSameFlight) {
 
 /// Without the obstacle term the scene is a crash: else the flights above would prove nothing.
 TEST_F(PlannedFlight, BlindToObstaclesItCrashes) {
-  const Flown flown = fly("forest", std::chrono::seconds(40),
-                          {"risk.max_risk=1", "planner.stop_check=\"paper\"", "objective.collision_reward=0"});
+  const Flown flown = fly(
+      "forest", std::chrono::seconds(40),
+      {"planner.stop_check=\"paper\"", "risk.max_risk=1", "vehicle.radius_m=0.01", "risk.horizontal_base_m=0",
+       "risk.horizontal_per_speed_s=0", "risk.horizontal_per_time_m_s=0", "risk.vertical_base_m=0",
+       "risk.vertical_per_speed_s=0", "risk.vertical_per_time_m_s=0", "risk.prior_occluded=0", "risk.prior_partial=0",
+       "risk.prior_hole=0", "risk.prior_outside_fov=0", "risk.prior_beyond_range=0", "risk.prior_behind=0"});
   EXPECT_EQ(flown.planned.outcome, Outcome::kCollision);
 }
 
