@@ -51,12 +51,13 @@ struct TrackHeading {
 };
 
 TrackHeading headingByTracks(const RingBuffer<AlignmentPair>& pairs, const NedFromWorld& T_NED_W, double sigma_m) {
-  // Weights after Huber: a residual beyond the sigma counts as if it were that.
+  // What is off by more than the sigma loses weight faster than it gains leverage: a gross outlier has no say.
   double sum = 0.0;
   Vec3 mean_NED = Vec3::Zero();
   Vec3 mean_turned = Vec3::Zero();
   const auto weightOf = [&](const AlignmentPair& pair) {
-    return std::min(1.0, sigma_m / std::max(residualsOf(pair, T_NED_W).position_m, sigma_m));
+    const double share = sigma_m / std::max(residualsOf(pair, T_NED_W).position_m, sigma_m);
+    return share * share;
   };
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const double weight = weightOf(pairs[i]);
