@@ -59,6 +59,7 @@ int mavsdk_add_any_connection(mavsdk_t mavsdk, const char* url);
 mavsdk_system_t mavsdk_first_autopilot(mavsdk_t mavsdk, double timeout_s);
 mavsdk_handle_t mavsdk_subscribe_outgoing_messages_json(mavsdk_t mavsdk, mavsdk_intercept_json_callback_t callback,
                                                         void* user_data);
+void mavsdk_unsubscribe_outgoing_messages_json(mavsdk_t mavsdk, mavsdk_handle_t handle);
 /// One for the process. Returning true keeps the line from MAVSDK's own output.
 void mavsdk_log_subscribe(mavsdk_log_callback_t callback, void* user_data);
 void mavsdk_log_unsubscribe();

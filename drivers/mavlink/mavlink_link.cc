@@ -27,6 +27,20 @@ using Mavsdk = std::unique_ptr<mavsdk_s, Destroyer<mavsdk_destroy>>;
 using System = std::unique_ptr<mavsdk_system_s, Destroyer<mavsdk_system_destroy>>;
 using Direct = std::unique_ptr<mavsdk_mavlink_direct_s, Destroyer<mavsdk_mavlink_direct_destroy>>;
 
+/// Has every message shown to `callback` before it leaves, for as long as this lives.
+class Interception {
+ public:
+  Interception(mavsdk_t mavsdk, mavsdk_intercept_json_callback_t callback, void* user_data)
+      : mavsdk_(mavsdk), handle_(mavsdk_subscribe_outgoing_messages_json(mavsdk, callback, user_data)) {}
+  ~Interception() { mavsdk_unsubscribe_outgoing_messages_json(mavsdk_, handle_); }
+  Interception(const Interception&) = delete;
+  Interception& operator=(const Interception&) = delete;
+
+ private:
+  mavsdk_t mavsdk_;
+  mavsdk_handle_t handle_;
+};
+
 /// What the connection result of MAVSDK says to do.
 std::string_view remedyOf(int connection_result) {
   constexpr int kBindError = 3;
@@ -94,8 +108,8 @@ class MavlinkLink::Session {
       : now_(std::move(now)),
         wanted_streams_(wantedStreams(parameters.pose_rate_hz)),
         monitor_(parameters.heartbeat_timeout),
-        mavsdk_(createMavsdk(parameters)) {
-    mavsdk_subscribe_outgoing_messages_json(mavsdk_.get(), &Session::onOutgoing, this);
+        mavsdk_(createMavsdk(parameters)),
+        interception_(mavsdk_.get(), &Session::onOutgoing, this) {
     const int result = mavsdk_add_any_connection(mavsdk_.get(), parameters.url.c_str());
     if (result != MAVSDK_CONNECTION_RESULT_SUCCESS) {
       throw std::runtime_error("MAVLink: cannot open '" + parameters.url + "' (MAVSDK's result " +
@@ -284,6 +298,7 @@ class MavlinkLink::Session {
 
   // Destroyed in the reverse order, as MAVSDK wants it; its threads end with the first of them.
   Mavsdk mavsdk_;
+  Interception interception_;
   System system_;
   Direct direct_;
   std::vector<mavsdk_handle_t> subscriptions_;

@@ -37,7 +37,7 @@ CTYPES = {
     **{f"{name}*": ctypes.POINTER(structure) for name, structure in STRUCTURES.items()},
 }
 # The wheel's Python has no use for these, and so no signature: only the callback's type and the export are compared.
-UNUSED_BY_THE_WHEEL = {"mavsdk_subscribe_outgoing_messages_json"}
+UNUSED_BY_THE_WHEEL = {"mavsdk_subscribe_outgoing_messages_json", "mavsdk_unsubscribe_outgoing_messages_json"}
 
 
 def ctype_of(declared: str):
@@ -48,7 +48,8 @@ def ctype_of(declared: str):
 
 def without_names(parameters: str) -> list[str]:
     """Types of a parameter list, every parameter of which is named."""
-    return [re.fullmatch(r"(.*?)\s*\w+", parameter.strip()).group(1) for parameter in parameters.split(",") if parameter]
+    return [re.fullmatch(r"(.*?)\s*\w+", parameter.strip()).group(1)
+            for parameter in parameters.split(",") if parameter]
 
 
 def same(declared, expected) -> bool:
