@@ -2,9 +2,128 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/depth_tiles.cc"
+#include "core/simd.h"
+// clang-format off
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// clang-format on
+
+#ifndef NANOMAP_CORE_DEPTH_TILES_CC_ONCE
+#define NANOMAP_CORE_DEPTH_TILES_CC_ONCE
 namespace nanomap {
+namespace {
+
+/// Rows of tiles of an image, and where what is found of one row of them goes.
+struct TileRow {
+  std::span<const std::uint16_t> pixels;  ///< of the image
+  std::size_t width_px;
+  std::size_t top;
+  std::size_t bottom;                        ///< past the last row, at most a tile's edge below the top
+  std::span<const std::uint16_t> no_return;  ///< values
+  std::uint16_t* least;                      ///< one a tile, as the others
+  std::uint16_t* greatest;
+  std::uint16_t* cover;
+  DepthTiles::Gaps* gaps;
+};
+
+}  // namespace
+}  // namespace nanomap
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace nanomap::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr auto kEdge = static_cast<std::size_t>(DepthTiles::kEdge_px);
+
+// Each 128-bit part of a vector holds eight pixels of one tile.
+using RawTag = hn::CappedTag<std::uint16_t, 4 * kEdge>;
+using RawVec = hn::Vec<RawTag>;
+constexpr std::size_t kColumns = hn::MaxLanes(RawTag());
+constexpr std::size_t kTiles = kColumns / kEdge;
+
+/// In every lane what `pick` leaves of its part.
+template <class Pick>
+HWY_INLINE RawVec overParts(RawVec v, Pick pick) {
+  const RawTag d;
+  const hn::Repartition<std::uint32_t, RawTag> d32;
+  v = pick(v, hn::BitCast(d, hn::Shuffle1032(hn::BitCast(d32, v))));
+  v = pick(v, hn::BitCast(d, hn::Shuffle2301(hn::BitCast(d32, v))));
+  return pick(v, hn::BitCast(d, hn::RotateRight<16>(hn::BitCast(d32, v))));
+}
+
+/// Writes the first lane of each part.
+HWY_INLINE void storeParts(RawVec v, std::size_t tiles, std::uint16_t* out) {
+  alignas(64) std::array<std::uint16_t, kColumns> lanes;
+  hn::Store(v, RawTag(), lanes.data());
+  for (std::size_t tile = 0; tile < tiles; ++tile) out[tile] = lanes[tile * kEdge];
+}
+
+/// Bounds `tiles` tiles, of which eight rows start at `pixels`, `stride` apart; those from `first_tile` on.
+HWY_INLINE void boundTiles(const TileRow& row, const std::uint16_t* pixels, std::size_t stride, std::size_t first_tile,
+                           std::size_t tiles) {
+  const RawTag d;
+  RawVec least = hn::Set(d, DepthTiles::kNoDepth);
+  RawVec greatest = hn::Zero(d);
+  RawVec gaps = hn::Zero(d);
+  for (std::size_t v = 0; v < kEdge; ++v) {
+    const RawVec raw = hn::LoadU(d, pixels + v * stride);
+    RawVec gap = hn::Zero(d);
+    for (const std::uint16_t value : row.no_return) {
+      gap = hn::Or(gap, hn::VecFromMask(d, hn::Eq(raw, hn::Set(d, value))));
+    }
+    least = hn::Min(least, hn::Or(raw, gap));
+    greatest = hn::Max(greatest, hn::AndNot(gap, raw));
+    gaps = hn::Or(gaps, hn::And(gap, hn::Set(d, static_cast<std::uint16_t>(1U << v))));
+  }
+  const auto lower = [](RawVec a, RawVec b) { return hn::Min(a, b); };
+  const auto higher = [](RawVec a, RawVec b) { return hn::Max(a, b); };
+  greatest = overParts(greatest, higher);
+  const auto without_gap = hn::Eq(overParts(gaps, higher), hn::Zero(d));
+  storeParts(overParts(least, lower), tiles, row.least + first_tile);
+  storeParts(greatest, tiles, row.greatest + first_tile);
+  storeParts(hn::IfThenElse(without_gap, greatest, hn::Set(d, DepthTiles::kNoDepth)), tiles, row.cover + first_tile);
+
+  const hn::Rebind<std::uint8_t, RawTag> d8;
+  alignas(64) std::array<DepthTiles::Gaps, kTiles> columns;
+  hn::Store(hn::DemoteTo(d8, hn::BitCast(hn::RebindToSigned<RawTag>(), gaps)), d8, columns.front().data());
+  std::copy_n(columns.begin(), tiles, row.gaps + first_tile);
+}
+
+void boundRow(const TileRow& row) {
+  const std::size_t width = row.width_px;
+  for (std::size_t left = 0; left < width; left += kColumns) {
+    const std::size_t columns = std::min(kColumns, width - left);
+    const std::size_t tiles = (columns + kEdge - 1) / kEdge;
+    if (columns == kColumns && row.bottom - row.top == kEdge) {
+      boundTiles(row, &row.pixels[row.top * width + left], width, left / kEdge, tiles);
+      continue;
+    }
+    // Beyond the border the nearest pixel inside, which moves no bound.
+    std::array<std::uint16_t, kEdge * kColumns> bordered;
+    for (std::size_t v = 0; v < kEdge; ++v) {
+      const std::uint16_t* from = &row.pixels[std::min(row.top + v, row.bottom - 1) * width + left];
+      for (std::size_t u = 0; u < kColumns; ++u) bordered[v * kColumns + u] = from[std::min(u, columns - 1)];
+    }
+    boundTiles(row, bordered.data(), kColumns, left / kEdge, tiles);
+  }
+}
+
+}  // namespace nanomap::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nanomap {
+
+HWY_EXPORT(boundRow);
+
 namespace {
 
 int tilesAlong(int pixels) { return (pixels + DepthTiles::kEdge_px - 1) / DepthTiles::kEdge_px; }
@@ -24,51 +143,21 @@ DepthTiles::DepthTiles(const CameraModel& camera)
 }
 
 void DepthTiles::assign(const DepthImage& image, const CameraModel& camera) {
-  constexpr auto kEdge = static_cast<std::size_t>(kEdge_px);
-  const auto width = static_cast<std::size_t>(image.width_px);
-  const auto height = static_cast<std::size_t>(image.height_px);
-  const std::span<const std::uint16_t> no_return = camera.parameters().no_return_values;
-
-  // Column by column over a row of tiles, a strip of columns at a time, in loops without a branch that the compiler
-  // turns into vector code.
-  constexpr std::size_t kStrip = 64;
-  using Strip = std::array<std::uint16_t, kStrip>;
-  std::size_t tile = 0;
-  for (std::size_t top = 0; top < height; top += kEdge) {
-    for (std::size_t left = 0; left < width; left += kStrip) {
-      const std::size_t columns = std::min(kStrip, width - left);
-      Strip least;
-      Strip greatest{};
-      Strip gaps{};
-      least.fill(kNoDepth);
-      for (std::size_t v = top; v < std::min(top + kEdge, height); ++v) {
-        Strip raw{};
-        std::copy_n(&image.pixels[v * width + left], columns, raw.begin());
-        Strip gap{};
-        for (const std::uint16_t value : no_return) {
-          for (std::size_t u = 0; u < kStrip; ++u) gap[u] = raw[u] == value ? kNoDepth : gap[u];
-        }
-        const auto row_bit = static_cast<std::uint16_t>(1U << (v - top));
-        for (std::size_t u = 0; u < kStrip; ++u) {
-          const auto depth_or_zero = static_cast<std::uint16_t>(raw[u] & ~gap[u]);
-          least[u] = std::min(least[u], static_cast<std::uint16_t>(depth_or_zero | gap[u]));
-          greatest[u] = std::max(greatest[u], depth_or_zero);
-          gaps[u] = static_cast<std::uint16_t>(gaps[u] | (gap[u] & row_bit));
-        }
-      }
-      for (std::size_t first = 0; first < columns; first += kEdge, ++tile) {
-        const std::size_t count = std::min(kEdge, columns - first);
-        least_[tile] = std::ranges::min(std::span(least).subspan(first, count));
-        greatest_[tile] = std::ranges::max(std::span(greatest).subspan(first, count));
-        std::uint32_t any_gap = 0;
-        for (std::size_t u = 0; u < count; ++u) {
-          gaps_[tile][u] = static_cast<std::uint8_t>(gaps[first + u]);
-          any_gap |= gaps[first + u];
-        }
-        cover_[tile] = any_gap == 0 ? greatest_[tile] : kNoDepth;
-      }
-    }
+  for (int row = 0; row < rows_; ++row) {
+    const std::size_t first = tileAt(0, row);
+    const int top = row * kEdge_px;
+    HWY_DYNAMIC_DISPATCH(boundRow)
+    ({.pixels = image.pixels,
+      .width_px = static_cast<std::size_t>(image.width_px),
+      .top = static_cast<std::size_t>(top),
+      .bottom = static_cast<std::size_t>(std::min(top + kEdge_px, image.height_px)),
+      .no_return = camera.parameters().no_return_values,
+      .least = &least_[first],
+      .greatest = &greatest_[first],
+      .cover = &cover_[first],
+      .gaps = &gaps_[first]});
   }
 }
 
 }  // namespace nanomap
+#endif

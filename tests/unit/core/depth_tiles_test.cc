@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <random>
+#include <string>
 
 #include "tests/support/drawing.h"
+#include "tests/support/instruction_sets.h"
 
 namespace nanomap {
 namespace {
@@ -46,7 +48,12 @@ void expectBoundsOf(const DepthImage& image, const CameraModel& camera) {
   }
 }
 
-TEST(DepthTiles, BoundEveryPixelOfEverySizeOfImage) {
+class DepthTilesOn : public testing::TestWithParam<std::int64_t> {
+ protected:
+  test::OnInstructionSet target_{GetParam()};
+};
+
+TEST_P(DepthTilesOn, BoundEveryPixelOfEverySizeOfImage) {
   std::mt19937 random(kSeed);
   for (const int width_px : {1, 7, 8, 9, 64, 101}) {
     for (const int height_px : {1, 8, 15, 48}) {
@@ -58,7 +65,7 @@ TEST(DepthTiles, BoundEveryPixelOfEverySizeOfImage) {
   }
 }
 
-TEST(DepthTiles, FollowTheCamerasOwnNoReturnValues) {
+TEST_P(DepthTilesOn, FollowTheCamerasOwnNoReturnValues) {
   CameraParameters parameters = test::smallCamera();
   for (const std::vector<std::uint16_t>& no_return_values :
        {std::vector<std::uint16_t>{}, {0}, {65535}, {4000}, {0, 4000, 65535}}) {
@@ -71,6 +78,9 @@ TEST(DepthTiles, FollowTheCamerasOwnNoReturnValues) {
     expectBoundsOf(image, camera);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Target, DepthTilesOn, testing::ValuesIn(test::instructionSets()),
+                         [](const auto& target) { return std::string(hwy::TargetName(target.param)); });
 
 }  // namespace
 }  // namespace nanomap

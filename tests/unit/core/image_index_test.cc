@@ -8,41 +8,23 @@
 #include <vector>
 
 #include "core/flann_index.h"
-#include "core/simd.h"
-// After simd.h, so that HWY_TARGETS are those that the index was compiled for.
-#include <hwy/highway.h>
-
 #include "tests/support/drawing.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/nearest_oracle.h"
 
 namespace nanomap {
 namespace {
 
 using test::bruteForce;
+using test::instructionSets;
 using test::model;
+using test::OnInstructionSet;
 using test::pointsInRange;
 using test::smallCamera;
 
 constexpr unsigned kSeed = 7;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-/// Every instruction set that the index was compiled for and this processor has.
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> out;
-  const std::int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
-  for (std::int64_t rest = supported; rest != 0; rest &= rest - 1) out.push_back(rest & -rest);
-  return out;
-}
-
-/// Searches through one instruction set while it lives.
-class OnTarget {
- public:
-  explicit OnTarget(std::int64_t target) { hwy::SetSupportedTargetsForTest(target); }
-  ~OnTarget() { hwy::SetSupportedTargetsForTest(0); }
-  OnTarget(const OnTarget&) = delete;
-  OnTarget& operator=(const OnTarget&) = delete;
-};
 
 /// An index, the image that it is of, and what it must hold.
 struct Indexed {
@@ -106,7 +88,7 @@ CameraParameters distortedCamera(int width_px, int height_px) {
 
 class ImageIndexOn : public testing::TestWithParam<std::int64_t> {
  protected:
-  OnTarget target_{GetParam()};
+  OnInstructionSet target_{GetParam()};
 };
 
 TEST_P(ImageIndexOn, EqualsBruteForceForEverySizeOfImageAndCamera) {
@@ -203,7 +185,7 @@ TEST_P(ImageIndexOn, ForgetsTheImageBefore) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Target, ImageIndexOn, testing::ValuesIn(targets()),
+INSTANTIATE_TEST_SUITE_P(Target, ImageIndexOn, testing::ValuesIn(instructionSets()),
                          [](const auto& target) { return std::string(hwy::TargetName(target.param)); });
 
 TEST(ImageIndex, GivesTheSamePointsInTheSameOrderOnEveryTarget) {
@@ -215,8 +197,8 @@ TEST(ImageIndex, GivesTheSamePointsInTheSameOrderOnEveryTarget) {
     std::vector<Vec3f> queries = {Vec3f(0, 0, 1), Vec3f(0, 0, -1), Vec3f(0.01F, 0, 2)};
     for (int i = 0; i < 50; ++i) queries.push_back(Vec3f::Random());
     std::vector<std::vector<Neighbour>> first;
-    for (const std::int64_t target : targets()) {
-      const OnTarget on(target);
+    for (const std::int64_t target : instructionSets()) {
+      const OnInstructionSet on(target);
       const Indexed indexed(camera, image);
       std::vector<std::vector<Neighbour>> found;
       for (const Vec3f& p_C : queries) {
