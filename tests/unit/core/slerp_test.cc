@@ -33,7 +33,7 @@ TEST(Slerp, IsTheTextbooksToTheLastBits) {
   constexpr double kRoundings = 1e-15;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> weight(0.0, 1.0);
-  for (const long double angle_rad : {1e-7L, 1e-3L, 0.05L, 0.12L, 0.1249L, 0.1251L, 0.13L, 1.0L, 3.0L}) {
+  for (const long double angle_rad : {1e-7L, 1e-3L, 0.05L, 0.12L, 0.1249L, 0.1251L, 0.13L, 0.4L, 1.0L, 3.0L}) {
     for (int i = 0; i < 500; ++i) {
       const Quaternion from = unitQuaternion(random);
       const Quaternion to = from * turn(angle_rad, random);
