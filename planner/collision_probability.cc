@@ -129,6 +129,13 @@ double errorTailBound(const Mat3& covariance_m2, double radius_m) {
   return probability((outside + inside) * (1.0 + kResultSlack));
 }
 
+double reachThatMatters_m(double largest_variance_m2, const CollisionParameters& parameters) {
+  if (parameters.model == CollisionModel::kGaussianVolume) return std::numeric_limits<double>::infinity();
+  // P(|e| > 8 sigma) is 8.2e-14 for an error that is the same in all directions, and less for any other.
+  constexpr double kSigmas = 8.0;
+  return parameters.vehicle_radius_m + kSigmas * std::sqrt(largest_variance_m2);
+}
+
 double collisionProbability(const UncertainPoint& x_C, std::span<const Neighbour> neighbours,
                             const CollisionParameters& parameters) {
   if (!allFinite(x_C, neighbours, parameters)) return 1.0;

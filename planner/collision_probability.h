@@ -64,6 +64,11 @@ struct CollisionParameters {
 [[nodiscard]] double collisionProbability(const UncertainPoint& x_C, std::span<const Neighbour> neighbours,
                                           const CollisionParameters& parameters);
 
+/// How far from the mean a measured point can be and still matter: farther ones add less than 1e-13 to
+/// collisionProbability, which may count as 0. Infinite for kGaussianVolume, which bounds nothing.
+/// @param largest_variance_m2  of the error in any direction, or more
+[[nodiscard]] double reachThatMatters_m(double largest_variance_m2, const CollisionParameters& parameters);
+
 /// Upper bound of P(|e| > radius_m) for e ~ N(0, covariance_m2), never below the truth; less than 1e-300 counts as 0.
 ///
 /// With the eigenvalues l1 >= l2 >= l3, conditioning on the third axis integrates in closed form when the other two are

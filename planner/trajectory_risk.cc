@@ -39,6 +39,9 @@ class RiskTally {
   TrajectoryRisk result_;
 };
 
+/// No less than the largest eigenvalue of a symmetric matrix (Gershgorin).
+double largestVarianceBound(const Mat3& covariance_m2) { return covariance_m2.cwiseAbs().rowwise().sum().maxCoeff(); }
+
 }  // namespace
 
 SpaceAhead::SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters)
@@ -52,23 +55,31 @@ Mat3 SpaceAhead::covariance_B(double horizontal_std_m, double vertical_std_m) co
   return horizontal_m2 * Mat3::Identity() + (vertical_m2 - horizontal_m2) * up_B * up_B.transpose();
 }
 
-SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s) const {
+SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool stop_early) const {
   const double speed_m_s = motion_W.velocity_m_s.norm();
-  const UncertainPoint x_B{
-      R_B_W_ * (motion_W.position_m - snapshot_.T_W_B.translation_m),
-      covariance_B(parameters_.horizontal.at(speed_m_s, elapsed_s), parameters_.vertical.at(speed_m_s, elapsed_s))};
-  const QueryReply reply = query(snapshot_, x_B, parameters_.query);
+  const double horizontal_m = parameters_.horizontal.at(speed_m_s, elapsed_s);
+  const double vertical_m = parameters_.vertical.at(speed_m_s, elapsed_s);
+  const UncertainPoint x_B{R_B_W_ * (motion_W.position_m - snapshot_.T_W_B.translation_m),
+                           covariance_B(horizontal_m, vertical_m)};
+  const Location location = locate(snapshot_, x_B, parameters_.query);
 
   SampleEvidence sample;
   sample.elapsed_s = elapsed_s;
   sample.position_W_m = motion_W.position_m;
-  sample.status = reply.status;
-  sample.view_index = reply.view_index;
-  if (!reply.found().empty()) sample.nearest_m = static_cast<double>(reply.found().front().distance_m);
+  sample.status = location.status;
+  sample.view_index = location.view_index;
   const double bubble_m = parameters_.collision.vehicle_radius_m + parameters_.bubble_margin_m;
   sample.in_bubble = x_B.mean_m.norm() <= bubble_m;
-  sample.prior = sample.in_bubble ? 0.0 : parameters_.prior[static_cast<std::size_t>(reply.status)];
-  sample.collision_probability = collisionProbability(reply.x_C, reply.found(), parameters_.collision);
+  sample.prior = sample.in_bubble ? 0.0 : parameters_.prior[static_cast<std::size_t>(location.status)];
+  const bool certain = sample.prior >= 1.0;
+  if (location.view_index && !(certain && stop_early)) {
+    const double deviation_m = std::max(horizontal_m, vertical_m);
+    const double edge_m2 = largestVarianceBound(snapshot_.views[*location.view_index].edge_covariance_C_m2);
+    const double reach_m = reachThatMatters_m(deviation_m * deviation_m + edge_m2, parameters_.collision);
+    const QueryReply reply = nearestAt(snapshot_, location, x_B, parameters_.query, static_cast<float>(reach_m));
+    if (!reply.found().empty()) sample.nearest_m = static_cast<double>(reply.found().front().distance_m);
+    sample.collision_probability = collisionProbability(reply.x_C, reply.found(), parameters_.collision);
+  }
   sample.risk = 1.0 - (1.0 - sample.prior) * (1.0 - sample.collision_probability);
   return sample;
 }
@@ -79,7 +90,7 @@ TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, boo
   const double radius_m = parameters_.collision.vehicle_radius_m;
   RiskTally tally(parameters_.max_risk);
   const auto assessAt = [&](double elapsed_s) {
-    const SampleEvidence sample = assess(trajectory.sample(elapsed_s), elapsed_s);
+    const SampleEvidence sample = assess(trajectory.sample(elapsed_s), elapsed_s, stop_early);
     tally.add(sample);
     if (evidence != nullptr) evidence->push_back(sample);
     return sample;

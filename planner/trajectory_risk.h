@@ -14,9 +14,9 @@
 namespace nanomap {
 
 /// How uncertain the vehicle is about where it will be: a standard deviation in each horizontal direction or vertically
-/// that grows with speed and time. The defaults cover how far the simulated vehicle of tools/sim strays from what it was
-/// told (0.15 m in three dimensions, root mean square, on forest flights at up to 7.7 m/s); a heavier vehicle needs its
-/// own. The authors' are larger and have no term of time.
+/// that grows with speed and time. The defaults cover how far the simulated vehicle of tools/sim strays from what it
+/// was told (0.15 m in three dimensions, root mean square, on forest flights at up to 7.7 m/s); a heavier vehicle needs
+/// its own. The authors' are larger and have no term of time.
 struct DeviationGrowth {
   double base_m = 0.0;
   double per_speed_s = 0.0;
@@ -54,13 +54,13 @@ struct SampleEvidence {
   Vec3 position_W_m = Vec3::Zero();
   Status status = Status::kEmpty;
   std::optional<std::uint32_t> view_index;  ///< in the snapshot, 0 the newest
-  std::optional<double> nearest_m;          ///< to the nearest measured point of that view
-  bool in_bubble = false;                   ///< judged by its neighbours alone
-  double prior = 0.0;                       ///< from the status; 0 in the bubble
-  double collision_probability = 0.0;       ///< from the neighbours
-  double risk = 0.0;                        ///< of both
+  std::optional<double> nearest_m;     ///< to the nearest measured point of that view, if it is near enough to matter
+  bool in_bubble = false;              ///< judged by its neighbours alone
+  double prior = 0.0;                  ///< from the status; 0 in the bubble
+  double collision_probability = 0.0;  ///< from the neighbours
+  double risk = 0.0;                   ///< of both
 
-  /// Distance to the nearest measured point; infinite if there is none.
+  /// Distance to the nearest measured point; infinite if there is none that matters.
   [[nodiscard]] double distance_m() const { return nearest_m.value_or(std::numeric_limits<double>::infinity()); }
 
   /// Free or open, or where the vehicle is anyway: a place to stand still.
@@ -88,7 +88,8 @@ class SpaceAhead {
   SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters);
 
   /// A moment of a trajectory, `elapsed_s` after its start.
-  [[nodiscard]] SampleEvidence assess(const Motion& motion_W, double elapsed_s) const;
+  /// @param stop_early  look for no neighbours where the status is a certain veto
+  [[nodiscard]] SampleEvidence assess(const Motion& motion_W, double elapsed_s, bool stop_early = false) const;
 
   /// A whole trajectory, in `samples` steps of equal time, and finer where those are farther apart than the vehicle's
   /// radius: so that neither a thin obstacle nor a hole as wide as the vehicle falls between two samples.

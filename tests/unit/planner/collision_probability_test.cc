@@ -384,5 +384,26 @@ RC_GTEST_PROP(CollisionProbabilityProperty, BoundsAreMonotone, ()) {
   RC_ASSERT(collisionProbability(wider, onePoint(distance_m), parameters) >= probability * (1.0 - relative_slack));
 }
 
+TEST(ReachThatMatters, APointBeyondItAddsLessThanWhatMayCountAsNothing) {
+  for (const Vec3& deviation_m : {Vec3(0.3, 0.3, 0.3), Vec3(0.5, 0.2, 0.1), Vec3(1.0, 0.0, 0.0)}) {
+    const Mat3 covariance_m2 = deviation_m.cwiseAbs2().asDiagonal();
+    for (const CollisionModel model : {CollisionModel::kBall, CollisionModel::kHalfSpaces}) {
+      CollisionParameters parameters;
+      parameters.model = model;
+      const double reach_m = reachThatMatters_m(deviation_m.cwiseAbs2().maxCoeff(), parameters);
+      const auto riskAt = [&](double distance_m) {
+        const Vec3f point_C(static_cast<float>(distance_m), 0.0F, 0.0F);
+        const Neighbour neighbour{point_C, point_C.norm()};
+        return collisionProbability({Vec3::Zero(), covariance_m2}, std::span(&neighbour, 1), parameters);
+      };
+      EXPECT_LT(riskAt(1.001 * reach_m), 2e-13);
+      EXPECT_GT(riskAt(0.8 * reach_m), 1e-13) << "not farther than need be";
+    }
+  }
+  CollisionParameters paper;
+  paper.model = CollisionModel::kGaussianVolume;
+  EXPECT_TRUE(std::isinf(reachThatMatters_m(0.01, paper)));
+}
+
 }  // namespace
 }  // namespace nanomap
