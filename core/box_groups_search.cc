@@ -37,8 +37,8 @@ class Candidates {
   HWY_INLINE void append(std::size_t first_box, FloatVec least_sq_m2, hn::Mask<FloatTag> chosen) {
     const IndexTag di;
     // Whole vectors, not CompressStore: what a masked store has written is slow to be read back.
-    hn::StoreU(Order::keysOf(hn::Compress(least_sq_m2, chosen), countingFrom(size_)), di, &keys_[size_]);
-    hn::StoreU(hn::Compress(countingFrom(first_box), hn::RebindMask(di, chosen)), di, &boxes_[size_]);
+    hn::StoreU(Order::keysOf(chosenInFront(least_sq_m2, chosen), countingFrom(size_)), di, &keys_[size_]);
+    hn::StoreU(chosenInFront(countingFrom(first_box), hn::RebindMask(di, chosen)), di, &boxes_[size_]);
     size_ += hn::CountTrue(FloatTag(), chosen);
   }
 
@@ -124,7 +124,7 @@ class Search {
     places = countingFrom(first);
     for (std::size_t i = 0; i < end - first; i += kLanes, places = hn::Add(places, hn::Set(di, kStep))) {
       const auto chosen = hn::RebindMask(di, hn::Le(hn::Load(d, &least_sq_m2[i]), reach));
-      hn::StoreU(hn::Compress(places, chosen), di, &near[near_count]);
+      hn::StoreU(chosenInFront(places, chosen), di, &near[near_count]);
       near_count += hn::CountTrue(di, chosen);
     }
     for (std::size_t i = 0; i < near_count; ++i) {

@@ -119,7 +119,7 @@ class GroupWriter {
       for (std::size_t first = 0; first < kBlockTiles; first += kLanes) {
         // Whole vectors, not CompressStore: what a masked store has written is slow to be read back.
         const auto mask = maskOf(tiles, first);
-        hn::StoreU(hn::Compress(hn::Load(d, &from[first]), mask), d, to);
+        hn::StoreU(chosenInFront(hn::Load(d, &from[first]), mask), d, to);
         to += hn::CountTrue(d, mask);
       }
     };

@@ -35,6 +35,33 @@ HWY_INLINE std::uint32_t bitsOf(Mask mask) {
   return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
 }
 
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+/// For every set of lanes, its members in front.
+alignas(64) constexpr auto kChosenInFront = [] {
+  std::array<std::array<std::int32_t, kLanes>, std::size_t{1} << kLanes> lanes{};
+  for (std::size_t set = 0; set < lanes.size(); ++set) {
+    std::size_t count = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if ((set >> lane & 1U) != 0) lanes[set][count++] = static_cast<std::int32_t>(lane);
+    }
+  }
+  return lanes;
+}();
+
+/// The chosen lanes in front, in their order; the rest is undefined. As hn::Compress, whose table (Highway 1.0.3, GCC
+/// 12) is copied to the stack at every use.
+template <class V, class Mask>
+HWY_INLINE V chosenInFront(V v, Mask mask) {
+  const std::uint32_t set = bitsOf(hn::RebindMask(FloatTag(), mask));
+  return hn::TableLookupLanes(v, hn::IndicesFromVec(hn::DFromV<V>(), hn::Load(IndexTag(), kChosenInFront[set].data())));
+}
+#else
+template <class V, class Mask>
+HWY_INLINE V chosenInFront(V v, Mask mask) {
+  return hn::Compress(v, mask);
+}
+#endif
+
 HWY_INLINE float leastLane(FloatVec v) { return hn::GetLane(hn::MinOfLanes(FloatTag(), v)); }
 HWY_INLINE float greatestLane(FloatVec v) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), v)); }
 HWY_INLINE std::int32_t leastLane(IndexVec v) { return hn::GetLane(hn::MinOfLanes(IndexTag(), v)); }
