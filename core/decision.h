@@ -65,7 +65,8 @@ struct Decision {
   Trajectory trajectory;
   double risk = 1.0;  ///< collision probability of the trajectory
 
-  /// The contingency: the trajectory at first, then braking to a standstill. To be flown only if verified.
+  /// The contingency: the trajectory at first, then braking to a standstill. What may be flown of a decision is for
+  /// isFlyable() to say (planner/receding_horizon.h): a retreat is flown without being within the constraint.
   Trajectory brake;
   bool brake_verified = false;
   double brake_risk = 1.0;  ///< of a verified brake; else 1: nothing is known

@@ -47,8 +47,9 @@ struct QueryReply {
 [[nodiscard]] QueryReply query(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const QueryOptions& options);
 
 /// The second half, for a point that locate() has placed: its mean and covariance in the view's frame and its nearest
-/// neighbours, no farther than `max_distance_m`. @pre as of query(), and `location` is locate()'s for the same
-/// arguments Allocates: no, except inside FLANN. Threads: any number of readers.
+/// neighbours, no farther than `max_distance_m`.
+/// @pre as of query(), and `location` is locate()'s for the same arguments
+/// Allocates: no, except inside FLANN. Threads: any number of readers.
 [[nodiscard]] QueryReply nearestAt(const ChainSnapshot& snapshot, const Location& location, const UncertainPoint& x_B,
                                    const QueryOptions& options, float max_distance_m = NearestPointIndex::kAnyDistance);
 

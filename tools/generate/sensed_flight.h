@@ -65,12 +65,10 @@ class Flyer {
   [[nodiscard]] virtual simulation::VehicleState at(Time stamp) = 0;
 
   /// What the estimator makes of it, each time it does: the autopilot has it at once.
-  virtual void onEstimate(const simulation::VioEstimate& estimate) { (void)estimate; }
+  virtual void onEstimate(const simulation::VioEstimate& /*estimate*/) {}
 
   /// A message, when it arrives; it has been recorded.
-  virtual void onArrival(const std::string& channel, Time arrival, Bytes message) {
-    (void)channel, (void)arrival, (void)message;
-  }
+  virtual void onArrival(const std::string& /*channel*/, Time /*arrival*/, Bytes /*message*/) {}
 
   /// Nothing more is to be recorded.
   [[nodiscard]] virtual bool isDone() const { return false; }
