@@ -21,7 +21,7 @@ struct LcmParameters {
   std::string answers_channel = "NANOMAP_ANSWERS";
   std::string decisions_channel = "NANOMAP_DECISIONS";
   BodyConvention pose_t_body = BodyConvention::kFlu;  ///< of bot_core.pose_t, which does not say
-  double max_body_speed_m_s = 30.0;  ///< a faster step between poses without epochs is a jump of the world; 0: never
+  double max_body_speed_m_s = 30.0;  ///< a faster step of the poses is a jump of their world; 0: never
 };
 
 /// Everything that one file configures. Plain values: the sections of the file map to them one by one

@@ -133,8 +133,8 @@ Section lcmSection() {
            [](auto& c) -> auto& { return c.lcm.pose_t_body; }),
        numberKey(
            "max_body_speed_m_s",
-           "bot_core.pose_t does not say either when the estimator's world jumps: a step faster than this is\n"
-           "taken for a jump, and nothing is subtracted across it. 0 switches this off.",
+           "A faster step from pose to pose is a jump of the estimator's world that it did not tell (bot_core.pose_t\n"
+           "cannot; nanomap.body_pose_t has an epoch): nothing is subtracted across it. 0 switches this off.",
            {0.0, 1000.0}, [](auto& c) -> auto& { return c.lcm.max_body_speed_m_s; })},
       {}};
 }

@@ -10,18 +10,20 @@ constexpr double kNoise_m = 0.05;
 
 }  // namespace
 
-std::uint32_t EpochAssigner::assign(Time stamp, const Pose& T_W_B) {
-  if (max_speed_m_s_ == 0.0 || checkPose(T_W_B) != PoseVerdict::kAccepted) return epoch_;
-  if (!newest_) {
-    newest_ = Newest{stamp, T_W_B.translation_m};
-    return epoch_;
+std::uint32_t EpochAssigner::assign(Time stamp, const Pose& T_W_B, std::uint32_t sent_epoch) {
+  if (max_speed_m_s_ == 0.0 || checkPose(T_W_B) != PoseVerdict::kAccepted) return epochOf(sent_epoch);
+  if (newest_ && sent_epoch < newest_->sent_epoch) return epochOf(sent_epoch);
+  const Newest pose{stamp, sent_epoch, T_W_B.translation_m};
+  if (!newest_ || sent_epoch > newest_->sent_epoch) {
+    newest_ = pose;
+    return epochOf(sent_epoch);
   }
   const double reach_m = kNoise_m + max_speed_m_s_ * std::abs(toSeconds(stamp - newest_->stamp));
-  const bool reachable = (T_W_B.translation_m - newest_->p_W_m).norm() <= reach_m;
-  if (stamp <= newest_->stamp) return reachable || epoch_ == 0 ? epoch_ : epoch_ - 1;
-  if (!reachable) ++epoch_;
-  newest_ = Newest{stamp, T_W_B.translation_m};
-  return epoch_;
+  const bool reachable = (pose.p_W_m - newest_->p_W_m).norm() <= reach_m;
+  if (stamp <= newest_->stamp) return epochOf(sent_epoch) - (reachable || jumps_ == 0 ? 0 : 1);
+  if (!reachable) ++jumps_;
+  newest_ = pose;
+  return epochOf(sent_epoch);
 }
 
 }  // namespace nanomap

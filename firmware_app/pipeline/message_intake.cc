@@ -18,7 +18,6 @@ Outcome take(Bytes bytes, Convert&& convert, Wrap&& wrap) {
   return Input(wrap(message, std::move(std::get<0>(converted))));
 }
 
-constexpr auto kAsItIs = [](const auto&, auto value) { return value; };
 constexpr auto kOfUnnamedCamera = [](const auto&, DepthImage image) { return DepthInput{{}, std::move(image)}; };
 
 }  // namespace
@@ -68,13 +67,19 @@ Outcome MessageIntake::read(InputKind kind, Bytes message) {
     case InputKind::kPose:
       return readPose(message);
     case InputKind::kCorrection:
-      return take<pose_correction_t>(message, toCorrection, kAsItIs);
+      return take<pose_correction_t>(message, toCorrection, [this](const auto&, Correction correction) {
+        correction.epoch = epochs_.epochOf(correction.epoch);
+        return correction;
+      });
     case InputKind::kCamera:
       return take<camera_model_t>(message, toCameraParameters, [](const camera_model_t& m, CameraParameters camera) {
         return CameraInput{m.name, std::move(camera)};
       });
     case InputKind::kGoal:
-      return take<goal_t>(message, toGoal, kAsItIs);
+      return take<goal_t>(message, toGoal, [this](const auto&, Goal goal) {
+        goal.epoch = epochs_.epochOf(goal.epoch);
+        return goal;
+      });
     case InputKind::kDepth:
       break;
   }
@@ -85,7 +90,8 @@ Outcome MessageIntake::readPose(Bytes message) {
   if (messageHash(message) != bot_core::pose_t::getHash()) {
     return take<body_pose_t>(
         message, [](const body_pose_t& m) { return toBodyPose(m); },
-        [](const body_pose_t& m, BodyPose pose) {
+        [this](const body_pose_t& m, BodyPose pose) {
+          pose.epoch = epochs_.assign(pose.stamp, pose.T_W_B, pose.epoch);
           return PoseInput{std::move(pose), toBodyMotion(m)};
         });
   }

@@ -47,7 +47,8 @@ struct DepthInput {
 using Input = std::variant<PoseInput, Correction, CameraInput, DepthInput, Goal>;
 
 /// Messages of the configured channels as values of core, whatever type carries them: each type is recognised by its
-/// hash. Numbers the messages of types that have no sequence number, and gives epochs to poses that have none.
+/// hash. Numbers the messages of types that have no sequence number, and raises the epoch of all that comes after a
+/// jump of the estimator's world that the estimator did not tell (epoch_assigner.h).
 /// Threads: one.
 class MessageIntake {
  public:

@@ -3,8 +3,6 @@
 #include <chrono>
 #include <utility>
 
-#include "firmware_app/pipeline/vehicle_state.h"
-
 namespace nanomap {
 namespace {
 
@@ -22,45 +20,40 @@ Pipeline::Pipeline(const Configuration& configuration)
       chain_(configuration.chain) {}
 
 Pipeline::Outcome Pipeline::feed(InputKind kind, Bytes message) {
+  auto input = read(kind, message);
+  return input ? take(*std::move(input)) : Outcome{};
+}
+
+std::optional<Input> Pipeline::read(InputKind kind, Bytes message) {
   count(counters_.messages, kind);
   auto outcome = intake_.read(kind, message);
   if (const auto* fault = std::get_if<DecodeFault>(&outcome)) {
     count(counters_.decode_faults[static_cast<std::size_t>(kind)], *fault);
-    return {};
+    return std::nullopt;
   }
   if (const auto* fault = std::get_if<ConvertFault>(&outcome)) {
     count(counters_.convert_faults[static_cast<std::size_t>(kind)], *fault);
-    return {};
+    return std::nullopt;
   }
-  return std::visit([this](auto&& input) { return take(std::move(input)); }, std::get<Input>(std::move(outcome)));
+  return std::get<Input>(std::move(outcome));
 }
 
-Pipeline::Outcome Pipeline::take(const PoseInput& input) {
-  const Chain::PoseOutcome outcome = chain_.addPose(input.pose);
-  const bool newest = !state_ || input.pose.stamp > state_->stamp;
-  if (newest && outcome.verdict == PoseVerdict::kAccepted) {
-    state_ = vehicleStateAt(input.pose, input.motion, chain_.poses());
-  }
-  return {.views_inserted = outcome.views_inserted};
+Pipeline::Outcome Pipeline::take(Input input) {
+  return std::visit([this](const auto& one) { return takeOne(one); }, input);
 }
 
-Pipeline::Outcome Pipeline::take(const Correction& correction) {
-  chain_.addCorrection(correction);
-  return {};
+template <class Other>
+Pipeline::Outcome Pipeline::takeOne(const Other& input) {
+  return {.views_inserted = chain_.take(input)};
 }
 
-Pipeline::Outcome Pipeline::take(const Goal& goal) {
-  goal_ = goal;
-  return {};
-}
-
-Pipeline::Outcome Pipeline::take(const CameraInput& camera) {
+Pipeline::Outcome Pipeline::takeOne(const CameraInput& camera) {
   const CameraVerdict verdict = view_builder_.setCamera(camera);
   count(counters_.cameras, verdict);
   return {.camera = verdict};
 }
 
-Pipeline::Outcome Pipeline::take(const DepthInput& depth) {
+Pipeline::Outcome Pipeline::takeOne(const DepthInput& depth) {
   const auto start = std::chrono::steady_clock::now();
   auto built = view_builder_.build(depth);
   if (const auto* fault = std::get_if<CameraFault>(&built)) {
@@ -71,10 +64,8 @@ Pipeline::Outcome Pipeline::take(const DepthInput& depth) {
     count(counters_.image_faults, *fault);
     return {};
   }
-  Outcome outcome{.build_time = std::chrono::steady_clock::now() - start};
-  const Chain::ViewOutcome entered = chain_.addView(std::get<ViewPtr>(std::move(built)));
-  if (!entered.waiting && !entered.drop) outcome.views_inserted = 1;
-  return outcome;
+  const Duration build_time = std::chrono::steady_clock::now() - start;
+  return {.views_inserted = chain_.take(std::get<ViewPtr>(std::move(built))), .build_time = build_time};
 }
 
 }  // namespace nanomap

@@ -5,10 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/chain.h"
-#include "core/goal.h"
-#include "core/vehicle_state.h"
 #include "firmware_app/configuration/configuration.h"
+#include "firmware_app/pipeline/chain_stage.h"
 #include "firmware_app/pipeline/message_intake.h"
 #include "firmware_app/pipeline/view_builder.h"
 
@@ -37,33 +35,31 @@ class Pipeline {
     std::optional<Duration> build_time{};   ///< measured, if a view was built
     std::optional<CameraVerdict> camera{};  ///< if the message described one
   };
+  /// Reads a message and takes it in at once.
   /// @param message  untrusted bytes from the configured channel of `kind`
   Outcome feed(InputKind kind, Bytes message);
 
+  /// The two halves of feed(), for whoever takes things in at another time, or in another order, than they were read.
+  /// Empty if the message could not be read.
+  [[nodiscard]] std::optional<Input> read(InputKind kind, Bytes message);
+  Outcome take(Input input);
+
   [[nodiscard]] std::optional<InputKind> kindOf(std::string_view channel) const { return intake_.kindOf(channel); }
-  [[nodiscard]] const Chain& chain() const { return chain_; }
-
-  /// How the vehicle moves at the newest pose by stamp that the chain has accepted; empty before the first.
-  [[nodiscard]] const std::optional<VehicleState>& state() const { return state_; }
-
-  /// The goal received last, whatever its stamp and number: who restarts begins to count anew.
-  [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
-
+  [[nodiscard]] const Chain& chain() const { return chain_.chain(); }
+  [[nodiscard]] const std::optional<VehicleState>& state() const { return chain_.state(); }
+  [[nodiscard]] const std::optional<Goal>& goal() const { return chain_.goal(); }
   [[nodiscard]] const ViewBuilder& viewBuilder() const { return view_builder_; }
   [[nodiscard]] const PipelineCounters& counters() const { return counters_; }
 
  private:
-  Outcome take(const PoseInput& input);
-  Outcome take(const Correction& correction);
-  Outcome take(const CameraInput& camera);
-  Outcome take(const DepthInput& depth);
-  Outcome take(const Goal& goal);
+  Outcome takeOne(const CameraInput& camera);
+  Outcome takeOne(const DepthInput& depth);
+  template <class Other>
+  Outcome takeOne(const Other& input);
 
   MessageIntake intake_;
   ViewBuilder view_builder_;
-  Chain chain_;
-  std::optional<VehicleState> state_;
-  std::optional<Goal> goal_;
+  ChainStage chain_;
   PipelineCounters counters_;
 };
 

@@ -55,6 +55,30 @@ TEST(EpochAssigner, LatePoseJoinsTheWorldItCanBeReachedFrom) {
   EXPECT_EQ(epochs.assign(at(30), placed(100.1)), 1U);
 }
 
+TEST(EpochAssigner, JumpThatTheSenderTellsIsNotCountedTwice) {
+  EpochAssigner epochs(kMaxSpeed_m_s);
+  EXPECT_EQ(epochs.assign(at(0), placed(0.0), 3), 3U);
+  EXPECT_EQ(epochs.assign(at(10), placed(50.0), 4), 4U);
+  EXPECT_EQ(epochs.assign(at(20), placed(50.1), 4), 4U);
+}
+
+TEST(EpochAssigner, JumpThatTheSenderHidesRaisesAllThatFollows) {
+  EpochAssigner epochs(kMaxSpeed_m_s);
+  EXPECT_EQ(epochs.assign(at(0), placed(0.0), 3), 3U);
+  EXPECT_EQ(epochs.epochOf(3), 3U);
+  EXPECT_EQ(epochs.assign(at(10), placed(1.0), 3), 4U);
+  EXPECT_EQ(epochs.epochOf(3), 4U);
+  EXPECT_EQ(epochs.assign(at(20), placed(1.0), 4), 5U);
+}
+
+TEST(EpochAssigner, LatePoseOfAnOlderSentEpochChangesNothing) {
+  EpochAssigner epochs(kMaxSpeed_m_s);
+  EXPECT_EQ(epochs.assign(at(10), placed(0.0), 3), 3U);
+  EXPECT_EQ(epochs.assign(at(20), placed(50.0), 4), 4U);
+  EXPECT_EQ(epochs.assign(at(15), placed(0.0), 3), 3U);
+  EXPECT_EQ(epochs.assign(at(30), placed(50.0), 4), 4U);
+}
+
 TEST(EpochAssigner, PoseThatIsNotFiniteChangesNothing) {
   EpochAssigner epochs(kMaxSpeed_m_s);
   EXPECT_EQ(epochs.assign(at(0), placed(0.0)), 0U);

@@ -71,6 +71,24 @@ TEST(MessageIntake, PoseWithoutEpochAndSequenceGetsBoth) {
   EXPECT_EQ(jumped.epoch, 1U);
 }
 
+TEST(MessageIntake, JumpThatTheEstimatorHidesRaisesTheEpochOfAllThatFollows) {
+  MessageIntake intake{LcmParameters{}};
+  BodyPose pose;
+  pose.epoch = 3;
+  EXPECT_EQ(taken<PoseInput>(intake, InputKind::kPose, encoded(toMessage(pose, std::nullopt))).pose.epoch, 3U);
+  pose.stamp += std::chrono::milliseconds(10);
+  pose.T_W_B.translation_m.x() = 1.0;
+  EXPECT_EQ(taken<PoseInput>(intake, InputKind::kPose, encoded(toMessage(pose, std::nullopt))).pose.epoch, 4U);
+
+  goal_t goal{};
+  goal.epoch = 3;
+  EXPECT_EQ(taken<Goal>(intake, InputKind::kGoal, encoded(goal)).epoch, 4U);
+  Correction correction;
+  correction.epoch = 3;
+  const auto message = encoded(toMessage(correction, pose.stamp));
+  EXPECT_EQ(taken<Correction>(intake, InputKind::kCorrection, message).epoch, 4U);
+}
+
 TEST(MessageIntake, PoseConventionIsTheConfiguredOne) {
   LcmParameters lcm;
   lcm.pose_t_body = BodyConvention::kFrd;

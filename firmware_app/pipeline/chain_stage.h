@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/chain.h"
+#include "core/goal.h"
+#include "core/vehicle_state.h"
+#include "firmware_app/pipeline/message_intake.h"
+
+namespace nanomap {
+
+/// Stage T3: the chain, and what is known beside it that a plan is made from.
+/// A function of what it is given, in that order. Allocates as the chain does. Threads: one.
+class ChainStage {
+ public:
+  /// @throws std::invalid_argument naming the parameter that is wrong
+  explicit ChainStage(const ChainParameters& parameters) : chain_(parameters) {}
+
+  /// Each takes in one thing, and says how many views have entered the chain by it.
+  std::size_t take(const PoseInput& input);
+  std::size_t take(const Correction& correction);
+  std::size_t take(const Goal& goal);
+  std::size_t take(ViewPtr view);
+
+  [[nodiscard]] const Chain& chain() const { return chain_; }
+
+  /// How the vehicle moves at the newest pose by stamp that the chain has accepted; empty before the first.
+  [[nodiscard]] const std::optional<VehicleState>& state() const { return state_; }
+
+  /// The goal received last, whatever its stamp and number: who restarts begins to count anew.
+  [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
+
+ private:
+  Chain chain_;
+  std::optional<VehicleState> state_;
+  std::optional<Goal> goal_;
+};
+
+}  // namespace nanomap
