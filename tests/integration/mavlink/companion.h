@@ -8,7 +8,7 @@
 #include "drivers/mavlink/mavlink_link.h"
 #include "drivers/mavlink/mavsdk_log.h"
 #include "tests/integration/mavlink/autopilot_process.h"
-#include "tests/integration/mavlink/udp_port.h"
+#include "tests/support/udp_port.h"
 
 namespace nanomap::test {
 
