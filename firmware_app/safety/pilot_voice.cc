@@ -1,0 +1,70 @@
+#include "firmware_app/safety/pilot_voice.h"
+
+namespace nanomap {
+namespace {
+
+/// A pilot who connects late should not have to wait for longer to learn what is missing.
+constexpr Duration kReminder = std::chrono::seconds(10);
+
+/// What is missing while waiting flickers as streams start.
+constexpr Duration kWaitingHurry = std::chrono::seconds(2);
+
+/// A reason to hover that goes within that time is no news.
+constexpr Duration kReasonLasts = std::chrono::seconds(1);
+
+bool isNews(Reason reason) { return reason != Reason::kFlying && reason != Reason::kSlowing; }
+
+PilotText textOf(const Verdict& verdict) {
+  switch (verdict.state) {
+    case State::kWaiting:
+      return {Severity::kWarning, "NanoMap waits for: " + verdict.faults.words()};
+    case State::kReady:
+      return {Severity::kInfo, "NanoMap ready: switch to OFFBOARD or GUIDED"};
+    case State::kFlying:
+      return {Severity::kNotice, "NanoMap flies"};
+    case State::kBraking:
+      return {
+          verdict.critical ? Severity::kCritical : Severity::kWarning,
+          (verdict.critical ? "NanoMap stops, still without: " : "NanoMap brakes, without: ") + verdict.faults.words()};
+    case State::kLost:
+      break;
+  }
+  return {Severity::kCritical, "NanoMap has let go: take over. Without: " + verdict.faults.words()};
+}
+
+}  // namespace
+
+std::optional<PilotText> PilotVoice::step(Time now, const Verdict& verdict, Reason reason) {
+  if (auto text = ofState(now, verdict)) return text;
+  return ofReason(now, verdict, reason);
+}
+
+std::optional<PilotText> PilotVoice::ofState(Time now, const Verdict& verdict) {
+  const bool settling = !verdict.faults.any() && verdict.state != State::kReady && verdict.state != State::kFlying;
+  if (settling) return std::nullopt;  // the next state will be said
+  if (told_) {
+    const bool same_state = told_->state == verdict.state;
+    const bool waiting = verdict.state == State::kWaiting;
+    const bool other_words = waiting && told_->faults != verdict.faults && now - told_at_ >= kWaitingHurry;
+    const bool worse = verdict.critical && !told_->critical;
+    const bool due = waiting && now - told_at_ >= kReminder;
+    if (same_state && !other_words && !worse && !due) return std::nullopt;
+  }
+  told_ = verdict;
+  told_at_ = now;
+  return textOf(verdict);
+}
+
+std::optional<PilotText> PilotVoice::ofReason(Time now, const Verdict& verdict, Reason reason) {
+  if (reason != reason_) {
+    reason_ = reason;
+    reason_since_ = now;
+    reason_told_ = false;
+  }
+  if (verdict.state != State::kFlying || reason_told_ || now - reason_since_ < kReasonLasts) return std::nullopt;
+  reason_told_ = true;
+  if (!isNews(reason)) return std::nullopt;
+  return PilotText{Severity::kInfo, "NanoMap: " + std::string(toString(reason))};
+}
+
+}  // namespace nanomap

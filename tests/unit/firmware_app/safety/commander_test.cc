@@ -1,0 +1,178 @@
+#include "firmware_app/safety/commander.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/firmware_app/safety/healthy.h"
+
+namespace nanomap {
+namespace {
+
+constexpr double kTolerance_m = 1e-4;  // of a float, tens of metres away
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+/// A decision that flies along x from `position` at `speed` for a second and stands then.
+Decision flying(Time start, const Vec3& position_W_m, double speed_m_s, std::uint32_t epoch = 0) {
+  Decision decision;
+  decision.stamp = start;
+  decision.candidate = 1;
+  decision.reason = Reason::kFlying;
+  decision.consumed.epoch = epoch;
+  Trajectory brake(start, {position_W_m, {speed_m_s, 0.0, 0.0}, {-speed_m_s, 0.0, 0.0}});
+  brake.append(1.0, Vec3::Zero());
+  decision.brake = brake;
+  decision.brake_verified = true;
+  return decision;
+}
+
+Alignment aligned(const NedFromWorld& T_NED_W, std::uint32_t epoch = 0) {
+  Alignment alignment;
+  alignment.verdict = AlignmentVerdict::kGood;
+  alignment.T_NED_W = T_NED_W;
+  alignment.epoch = epoch;
+  return alignment;
+}
+
+CommandInputs inputsAt(Time now, const Vec3& position_W_m, double speed_m_s) {
+  CommandInputs inputs;
+  inputs.vehicle.camera = true;
+  inputs.vehicle.newest_view = now - std::chrono::milliseconds(60);
+  inputs.vehicle.state.emplace();
+  inputs.vehicle.state->stamp = now - std::chrono::milliseconds(10);
+  inputs.vehicle.state->T_W_B.translation_m = position_W_m;
+  inputs.vehicle.state->velocity_W_m_s = {speed_m_s, 0.0, 0.0};
+  inputs.plan.in_force = flying(now - std::chrono::milliseconds(30), position_W_m, speed_m_s);
+  inputs.autopilot.linked = true;
+  inputs.autopilot.armed = true;
+  inputs.alignment = aligned(NedFromWorld(70.0 * kDeg, {100.0, -50.0, -3.0}));
+  return inputs;
+}
+
+class CommanderInFlight : public ::testing::Test {
+ protected:
+  CommanderInFlight() {
+    for (int i = 0; i < 50; ++i, now_ += kStep) (void)commander_.step(now_, inputsAt(now_, kHere_W_m, 0.0));
+    command_ = commander_.step(now_, ordered(inputsAt(now_, kHere_W_m, 0.0)));
+  }
+
+  static CommandInputs ordered(CommandInputs inputs) {
+    inputs.autopilot.external_control = true;
+    inputs.autopilot.external_control_entries = 1;
+    return inputs;
+  }
+
+  static inline const Vec3 kHere_W_m{5.0, 2.0, 1.5};
+  Commander commander_{SafetyParameters{}, 1.0};
+  Time now_ = atMs(10'000);
+  Command command_;
+};
+
+TEST(Commander, HoldsWhereTheVehicleIsWhileReady) {
+  Commander commander{SafetyParameters{}, 1.0};
+  const NedFromWorld T_NED_W(70.0 * kDeg, {100.0, -50.0, -3.0});
+  const Vec3 here_W{5.0, 2.0, 1.5};
+  const Command command = commander.step(atMs(0), inputsAt(atMs(0), here_W, 3.0));
+  ASSERT_EQ(command.verdict.state, State::kReady);
+  ASSERT_TRUE(command.target);
+  EXPECT_NEAR((command.target->position_NED_m.cast<double>() - T_NED_W.point(here_W)).norm(), 0.0, kTolerance_m);
+  EXPECT_EQ(command.target->velocity_NED_m_s, Vec3f::Zero());
+  EXPECT_NEAR(command.target->yaw_NED_rad, 70.0 * kDeg, 1e-6);
+  EXPECT_EQ(command.status, SystemStatus::kStandby);
+}
+
+TEST(Commander, SendsNothingWithoutAlignment) {
+  Commander commander{SafetyParameters{}, 1.0};
+  CommandInputs inputs = inputsAt(atMs(0), Vec3::Zero(), 0.0);
+  inputs.alignment = {};
+  const Command command = commander.step(atMs(0), inputs);
+  EXPECT_EQ(command.verdict.state, State::kWaiting);
+  EXPECT_FALSE(command.target);
+  EXPECT_TRUE(command.verdict.faults.has(Fault::kAlignment));
+}
+
+TEST_F(CommanderInFlight, SamplesTheMotionForTheMomentOfSending) {
+  ASSERT_EQ(command_.verdict.state, State::kFlying);
+  EXPECT_EQ(command_.status, SystemStatus::kActive);
+  CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 4.0));
+  now_ += kStep;
+  const Command command = commander_.step(now_, inputs);
+  ASSERT_TRUE(command.target);
+  const double elapsed_s = toSeconds(now_ - inputs.plan.in_force->stamp);
+  const Vec3 expected_W = kHere_W_m + Vec3(4.0 * elapsed_s - 2.0 * elapsed_s * elapsed_s, 0.0, 0.0);
+  EXPECT_NEAR((command.target->position_NED_m.cast<double>() - inputs.alignment.T_NED_W->point(expected_W)).norm(), 0.0,
+              kTolerance_m);
+  EXPECT_NEAR(command.target->velocity_NED_m_s.cast<double>().norm(), 4.0 - 4.0 * elapsed_s, 1e-5);
+}
+
+TEST_F(CommanderInFlight, StalePlanIsFlownToAStandstillAndThenLeft) {
+  const CommandInputs last = ordered(inputsAt(now_, kHere_W_m, 4.0));
+  const Time began = now_;
+  const Vec3 end_W = kHere_W_m + Vec3(2.0, 0.0, 0.0);
+  Command command;
+  bool sent_at_end = false;
+  for (; now_ < began + std::chrono::seconds(5); now_ += kStep) {
+    CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 0.0));
+    inputs.plan = last.plan;
+    inputs.vehicle.state->velocity_W_m_s.x() = 1.0;  // never stands, by the estimator's word
+    command = commander_.step(now_, inputs);
+    if (!command.target) break;
+    sent_at_end |=
+        (command.target->position_NED_m.cast<double>() - last.alignment.T_NED_W->point(end_W)).norm() < 0.01 &&
+        command.target->velocity_NED_m_s.norm() < 0.01F;
+  }
+  EXPECT_TRUE(sent_at_end);
+  EXPECT_EQ(command.verdict.state, State::kLost);
+  EXPECT_EQ(command.status, SystemStatus::kEmergency);
+  EXPECT_LE(now_ - last.plan.in_force->stamp, std::chrono::seconds(1) + SafetyParameters{}.stop_margin + kStep);
+}
+
+TEST_F(CommanderInFlight, LostPoseIsBrakedForWithVelocitiesOnly) {
+  CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 4.0));
+  now_ += std::chrono::milliseconds(100);
+  (void)commander_.step(now_, inputs);
+  now_ += std::chrono::milliseconds(150);
+  const Command command = commander_.step(now_, inputs);
+  EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
+  ASSERT_TRUE(command.target);
+  EXPECT_EQ(command.target->type_mask & 0b111, 0b111);
+  EXPECT_GT(command.target->velocity_NED_m_s.norm(), 2.0F);
+}
+
+// The estimator's world jumps by tens of metres and 40 degrees; the autopilot's does not.
+TEST_F(CommanderInFlight, JumpOfTheEstimatorNeverStepsTheSetpoint) {
+  constexpr float kLargestStep_m = 0.15F;  // 4 m/s for a step, and what braking adds
+  const NedFromWorld T_NED_W = *inputsAt(now_, kHere_W_m, 0.0).alignment.T_NED_W;
+  const NedFromWorld T_NED_Wnew(30.0 * kDeg, {60.0, 20.0, -3.0});
+  const Decision before = flying(now_, kHere_W_m, 4.0);
+  const Time jump = now_ + std::chrono::milliseconds(100);
+  const Time known = jump + std::chrono::milliseconds(1100);
+  const Vec3 stands_NED = T_NED_W.point(before.brake.atEnd().position_m);
+  std::optional<Vec3f> last;
+  bool new_world_flown = false;
+  for (const Time end = now_ + std::chrono::seconds(4); now_ < end; now_ += kStep) {
+    CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 4.0));
+    inputs.plan.in_force = before;
+    if (now_ < jump) {
+      inputs.plan.in_force->stamp = now_;
+    } else {
+      const Vec3 here_Wnew = T_NED_Wnew.pointInWorld(stands_NED);
+      inputs.vehicle.state->epoch = 1;
+      inputs.vehicle.state->T_W_B.translation_m = here_Wnew;
+      inputs.plan.in_force = flying(now_, here_Wnew, 0.0, 1);
+      inputs.alignment = now_ < known ? Alignment{} : aligned(T_NED_Wnew, 1);
+      inputs.alignment.epoch = 1;
+    }
+    const Command command = commander_.step(now_, inputs);
+    ASSERT_TRUE(command.target) << command.verdict.faults.words();
+    if (last) {
+      EXPECT_LE((command.target->position_NED_m - *last).norm(), kLargestStep_m);
+    }
+    last = command.target->position_NED_m;
+    new_world_flown |= command.verdict.state == State::kFlying && commander_.inForce()->consumed.epoch == 1;
+  }
+  EXPECT_TRUE(new_world_flown);
+}
+
+}  // namespace
+}  // namespace nanomap
