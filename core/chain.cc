@@ -177,6 +177,11 @@ ChainSnapshot Chain::snapshot() const {
   return out;
 }
 
+std::optional<Time> Chain::newestViewStamp() const {
+  if (links_.empty()) return std::nullopt;
+  return links_.front().station.stamp;
+}
+
 std::vector<Edge> Chain::edges() const {
   std::vector<Edge> edges;
   edges.reserve(links_.size());

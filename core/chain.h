@@ -94,6 +94,9 @@ class Chain {
   /// Edges newest first, edge 0 being T_{C_0}_B, up to the first one that is cut.
   [[nodiscard]] std::vector<Edge> edges() const;
 
+  /// Of the newest view; empty without one.
+  [[nodiscard]] std::optional<Time> newestViewStamp() const;
+
   [[nodiscard]] std::size_t viewCount() const { return links_.size(); }
   [[nodiscard]] std::size_t waitingCount() const { return waiting_.size(); }
   [[nodiscard]] const PoseBuffer& poses() const { return poses_; }

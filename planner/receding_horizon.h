@@ -28,6 +28,9 @@ class RecedingHorizon {
   [[nodiscard]] Decision step(const ChainSnapshot& snapshot, const VehicleState& measured,
                               const std::optional<Goal>& goal, Time now);
 
+  /// Nothing is in force any more: the vehicle is in someone else's hands.
+  void release() { in_force_.reset(); }
+
   /// What `step` would decide with the same arguments, and why. Takes nothing into force.
   [[nodiscard]] Explanation explain(const ChainSnapshot& snapshot, const VehicleState& measured,
                                     const std::optional<Goal>& goal, Time now) const;

@@ -70,9 +70,11 @@ AutopilotMonitor::AutopilotMonitor(Duration heartbeat_timeout)
 
 void AutopilotMonitor::receive(const HeartbeatMessage& message, Time arrival) {
   constexpr std::uint8_t kArmed = 128;
+  constexpr std::uint8_t kHardwareInTheLoop = 32;
   const bool had_other_mode = state(arrival).linked && !last_.external_control;
   last_.kind = kindOf(message.autopilot);
   last_.armed = (message.base_mode & kArmed) != 0;
+  last_.simulated = (message.base_mode & kHardwareInTheLoop) != 0;
   last_.custom_mode = message.custom_mode;
   last_.external_control = isExternalControl(last_.kind, message.base_mode, message.custom_mode);
   if (had_other_mode && last_.external_control) ++last_.external_control_entries;

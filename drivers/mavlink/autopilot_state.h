@@ -29,6 +29,7 @@ struct AutopilotState {
   std::optional<Duration> attitude_age;
   bool linked = false;  ///< its heartbeat is fresh; what follows is its last word either way
   bool armed = false;
+  bool simulated = false;         ///< it says that it flies no real vehicle (MAV_MODE_FLAG_HIL_ENABLED)
   bool external_control = false;  ///< the pilot's mode is PX4's OFFBOARD or ArduCopter's GUIDED
   std::uint32_t custom_mode = 0;
   /// Times that the mode was seen to turn to external control from another one, with no gap in the link. One that it

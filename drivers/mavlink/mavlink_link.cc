@@ -85,22 +85,6 @@ std::vector<MessageIntervalRequest> wantedStreams(double pose_rate_hz) {
 
 }  // namespace
 
-std::string_view toString(SendResult result) {
-  switch (result) {
-    case SendResult::kSent:
-      return "sent";
-    case SendResult::kNoAutopilot:
-      return "no autopilot";
-    case SendResult::kNoClock:
-      return "the autopilot's time is not known";
-    case SendResult::kNotFinite:
-      return "not finite";
-    case SendResult::kRefused:
-      return "refused by MAVSDK";
-  }
-  return "?";
-}
-
 /// Lives at one address: MAVSDK's callbacks point to it.
 class MavlinkLink::Session {
  public:

@@ -4,37 +4,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "core/time.h"
+#include "drivers/mavlink/autopilot_link.h"
 #include "drivers/mavlink/autopilot_monitor.h"
-#include "drivers/mavlink/autopilot_state.h"
-#include "drivers/mavlink/message_json.h"
-#include "drivers/mavlink/obstacle_distance.h"
-#include "drivers/mavlink/odometry.h"
-#include "drivers/mavlink/setpoint.h"
-#include "drivers/mavlink/status_text.h"
+#include "drivers/mavlink/link_parameters.h"
 
 namespace nanomap {
-
-struct LinkParameters {
-  /// As MAVSDK takes it: udpin://0.0.0.0:14540, udpout://host:port, tcpout://host:port, serial:///dev/ttyACM0:921600
-  std::string url = "udpin://0.0.0.0:14540";
-  std::uint8_t system_id = 1;       ///< the vehicle's: a companion computer is a part of it
-  std::uint8_t component_id = 196;  ///< MAV_COMP_ID_OBSTACLE_AVOIDANCE
-  Duration heartbeat_timeout = std::chrono::seconds(3);
-  double pose_rate_hz = 50.0;  ///< of the position and attitude that the autopilot is asked to stream
-};
-
-enum class SendResult : std::uint8_t {
-  kSent,         ///< handed to MAVSDK, which does not wait either: nothing says that it arrived
-  kNoAutopilot,  ///< none discovered yet
-  kNoClock,      ///< the autopilot has not told its time yet, or had not booted at the message's
-  kNotFinite,
-  kRefused,  ///< by MAVSDK
-};
-[[nodiscard]] std::string_view toString(SendResult result);
 
 struct LinkCounters {
   std::uint64_t setpoints_sent = 0;
@@ -51,7 +28,7 @@ struct LinkCounters {
 /// arming are the pilot's: nothing here changes them.
 /// Threads: keepAlive() and send() from one thread, which they cost the time to queue a message; the rest from any.
 /// MAVSDK receives and sends on threads of its own.
-class MavlinkLink {
+class MavlinkLink : public AutopilotLink {
  public:
   using Clock = std::function<Time()>;
 
@@ -59,23 +36,15 @@ class MavlinkLink {
   /// @param now  the process's clock, read from any thread; must neither block nor throw
   /// @throws std::invalid_argument, std::runtime_error naming the parameter or the URL and what to do about it
   MavlinkLink(const LinkParameters& parameters, Clock now);
-  ~MavlinkLink();
-  MavlinkLink(const MavlinkLink&) = delete;
-  MavlinkLink& operator=(const MavlinkLink&) = delete;
+  ~MavlinkLink() override;
 
-  /// To be called at 10 Hz or faster: discovers the autopilot, sends our heartbeat every second and whenever `status`
-  /// changes, and asks for the telemetry that is missing. Our heartbeats stop with these calls.
-  void keepAlive(SystemStatus status);
-
-  [[nodiscard]] SendResult send(const LocalNedTarget& target);
-  [[nodiscard]] SendResult send(const ObstacleDistances& distances);
-  [[nodiscard]] SendResult send(const OdometryMessage& odometry);
-  /// For the pilot: say it once, in words of his.
-  [[nodiscard]] SendResult sendText(Severity severity, std::string_view text);
-
-  [[nodiscard]] AutopilotState autopilot() const;
-  /// The oldest pose of the autopilot that nobody has taken; a bounded number of them waits.
-  [[nodiscard]] std::optional<AutopilotPose> takePose();
+  void keepAlive(SystemStatus status) override;
+  [[nodiscard]] SendResult send(const LocalNedTarget& target) override;
+  [[nodiscard]] SendResult send(const ObstacleDistances& distances) override;
+  [[nodiscard]] SendResult send(const OdometryMessage& odometry) override;
+  [[nodiscard]] SendResult sendText(Severity severity, std::string_view text) override;
+  [[nodiscard]] AutopilotState autopilot() const override;
+  [[nodiscard]] std::optional<AutopilotPose> takePose() override;
   [[nodiscard]] LinkCounters counters() const;
 
  private:

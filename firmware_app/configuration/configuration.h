@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -7,12 +8,25 @@
 #include "core/chain.h"
 #include "core/nearest_point_index.h"
 #include "drivers/lcm/body_convention.h"
+#include "drivers/mavlink/alignment_estimator.h"
+#include "drivers/mavlink/link_parameters.h"
+#include "drivers/mavlink/obstacle_distance.h"
+#include "firmware_app/safety/safety_parameters.h"
 #include "planner/planner_parameters.h"
 
 namespace nanomap {
 
+/// Whose clock the stamps of messages are of.
+enum class ClockDomain : std::uint8_t {
+  kMonotonic,  ///< this machine's CLOCK_MONOTONIC: the process's own
+  kRealtime,   ///< this machine's CLOCK_REALTIME: the time of day
+  kLog,        ///< a recording's: its first stamp is now
+};
+
 /// Names and habits of the LCM network, live or in a log.
 struct LcmParameters {
+  std::string url = "udpm://239.255.76.67:7667?ttl=0";
+  ClockDomain clock = ClockDomain::kMonotonic;
   std::string depth_channel = "DEPTH";
   std::string pose_channel = "POSE_BODY";
   std::string correction_channel = "POSE_CORRECTION";
@@ -20,8 +34,19 @@ struct LcmParameters {
   std::string goal_channel = "GOAL";
   std::string answers_channel = "NANOMAP_ANSWERS";
   std::string decisions_channel = "NANOMAP_DECISIONS";
+  std::string health_channel = "NANOMAP_HEALTH";
   BodyConvention pose_t_body = BodyConvention::kFlu;  ///< of bot_core.pose_t, which does not say
-  double max_body_speed_m_s = 30.0;  ///< a faster step of the poses is a jump of their world; 0: never
+  double max_body_speed_m_s = 30.0;                   ///< a faster step of the poses is a jump of their world; 0: never
+};
+
+/// The autopilot, and what it is told.
+struct MavlinkParameters {
+  LinkParameters link;
+  AlignmentParameters alignment;
+  double setpoint_rate_hz = 50.0;
+  bool send_obstacles = true;  ///< OBSTACLE_DISTANCE
+  ObstacleBand obstacle_band;
+  bool send_odometry = false;  ///< ODOMETRY: the autopilot flies by our estimator
 };
 
 /// Everything that one file configures. Plain values: the sections of the file map to them one by one
@@ -32,6 +57,8 @@ struct Configuration {
   IndexKind index = IndexKind::kImage;     ///< in [query]
   PlannerParameters planner;               ///< [vehicle], [query] and all sections from [planner] on, up to [lcm]
   LcmParameters lcm;
+  MavlinkParameters mavlink;
+  SafetyParameters safety;
 };
 
 }  // namespace nanomap

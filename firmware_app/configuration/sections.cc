@@ -106,6 +106,15 @@ Section lcmSection() {
       "lcm",
       "Names and habits of the LCM network, live or in a log.",
       {textKey(
+           "url", "The network. ttl=0 keeps messages on this machine: anyone who can send to it can send poses.",
+           TextRule{255}, [](auto& c) -> auto& { return c.lcm.url; }),
+       choiceKey<ClockDomain>(
+           "clock",
+           "Whose clock the stamps of all messages are of: monotonic (CLOCK_MONOTONIC of this machine), realtime (its\n"
+           "time of day), or log: a recording that is played back, whose first stamp is now. A log is never flown.",
+           {{"monotonic", ClockDomain::kMonotonic}, {"realtime", ClockDomain::kRealtime}, {"log", ClockDomain::kLog}},
+           [](auto& c) -> auto& { return c.lcm.clock; }),
+       textKey(
            "depth_channel", "Depth: nanomap.depth_image_t, bot_core.images_t or bot_core.image_t.", kChannelName,
            [](auto& c) -> auto& { return c.lcm.depth_channel; }),
        textKey(
@@ -125,6 +134,9 @@ Section lcmSection() {
        textKey(
            "decisions_channel", "What the planner decided: nanomap.decision_t.", kChannelName,
            [](auto& c) -> auto& { return c.lcm.decisions_channel; }),
+       textKey(
+           "health_channel", "How the flight process is, once a second: nanomap.health_t.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.health_channel; }),
        choiceKey<BodyConvention>(
            "pose_t_body",
            "Body axes of bot_core.pose_t, which does not say: flu (forward, left, up) or frd\n"
@@ -147,6 +159,7 @@ const std::vector<Section>& sections() {
                                     querySection()};
     for (Section& section : plannerSections()) ordered.push_back(std::move(section));
     ordered.push_back(lcmSection());
+    for (Section& section : flightSections()) ordered.push_back(std::move(section));
     return ordered;
   }();
   return all;

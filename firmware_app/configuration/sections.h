@@ -29,4 +29,7 @@ struct QualifiedKey {
 /// Make [planner] and what belongs to it, named as planner/planner_parameters.h names the parts.
 [[nodiscard]] std::vector<Section> plannerSections();
 
+/// Make [mavlink], [alignment] and [safety]: what concerns the autopilot and the pilot.
+[[nodiscard]] std::vector<Section> flightSections();
+
 }  // namespace nanomap

@@ -28,6 +28,9 @@ class ChainStage {
   /// How the vehicle moves at the newest pose by stamp that the chain has accepted; empty before the first.
   [[nodiscard]] const std::optional<VehicleState>& state() const { return state_; }
 
+  /// Exposure of the newest view of the chain; empty before the first.
+  [[nodiscard]] std::optional<Time> newestView() const { return chain_.newestViewStamp(); }
+
   /// The goal received last, whatever its stamp and number: who restarts begins to count anew.
   [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
 

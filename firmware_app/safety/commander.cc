@@ -10,7 +10,7 @@ const SafetyParameters& checked(const SafetyParameters& parameters) {
   return parameters;
 }
 
-SystemStatus statusOf(const Verdict& verdict) {
+SystemStatus statusOf(const SafetyVerdict& verdict) {
   switch (verdict.state) {
     case State::kReady:
       return SystemStatus::kStandby;
@@ -26,15 +26,27 @@ SystemStatus statusOf(const Verdict& verdict) {
   return SystemStatus::kBoot;
 }
 
+LocalNedTarget toNed(Time now, const CommandedMotion& commanded, const NedFromWorld& T_NED_W) {
+  if (commanded.with_position) return toNed(MotionSetpoint{now, commanded.motion_W, commanded.yaw_W_rad}, T_NED_W);
+  return toNed(VelocitySetpoint{now, commanded.motion_W.velocity_m_s, commanded.yaw_W_rad}, T_NED_W);
+}
+
 }  // namespace
 
 Commander::Commander(const SafetyParameters& parameters, double max_yaw_rate_rad_s)
     : machine_(checked(parameters)), heading_(max_yaw_rate_rad_s) {}
 
 Command Commander::step(Time now, const CommandInputs& inputs) {
-  motion_.update(inputs.plan.in_force, inputs.alignment);
-  const Verdict verdict = machine_.step(situationAt(now, inputs));
-  return {verdict, target(now, verdict.stream, inputs), statusOf(verdict)};
+  in_force_.update(inputs.plan.in_force, inputs.plan.sequence, inputs.alignment);
+  Command command;
+  command.verdict = machine_.step(situationAt(now, inputs));
+  command.status = statusOf(command.verdict);
+  command.motion = motion(now, command.verdict.stream, inputs);
+  if (command.motion) {
+    const NedFromWorld& T_NED_W = command.motion->decision ? in_force_.anchor() : *inputs.alignment.T_NED_W;
+    command.target = toNed(now, *command.motion, T_NED_W);
+  }
+  return command;
 }
 
 Situation Commander::situationAt(Time now, const CommandInputs& inputs) const {
@@ -50,34 +62,30 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs) const {
     situation.speed_m_s = vehicle.state->velocity_W_m_s.norm();
     situation.anchored = alignment.verdict == AlignmentVerdict::kGood && alignment.epoch == vehicle.state->epoch;
   }
-  if (const auto& decision = motion_.decision()) {
+  if (const auto& decision = in_force_.decision()) {
     situation.plan = decision->stamp;
     situation.brake_end = decision->brake.start() + fromSeconds(decision->brake.duration_s());
     situation.anchored_before_jump = decision->consumed.epoch != alignment.epoch;
   }
   situation.linked = inputs.autopilot.linked;
+  situation.live_refused = inputs.recording && inputs.autopilot.linked && !inputs.autopilot.simulated;
   situation.armed = inputs.autopilot.armed;
   situation.external_control = inputs.autopilot.external_control;
   situation.external_control_entries = inputs.autopilot.external_control_entries;
   return situation;
 }
 
-std::optional<LocalNedTarget> Commander::target(Time now, Stream stream, const CommandInputs& inputs) {
+std::optional<CommandedMotion> Commander::motion(Time now, Stream stream, const CommandInputs& inputs) {
   if (stream == Stream::kNone) return std::nullopt;
   if (stream == Stream::kHold) {
-    const VehicleState& state = *inputs.vehicle.state;
-    const double yaw_W_rad = yawOf(state.T_W_B.rotation);
+    const Pose& T_W_B = inputs.vehicle.state->T_W_B;
+    const double yaw_W_rad = yawOf(T_W_B.rotation);
     heading_.reset(now, yaw_W_rad);
-    const Motion standing{state.T_W_B.translation_m, Vec3::Zero(), Vec3::Zero()};
-    return toNed(MotionSetpoint{now, standing, yaw_W_rad}, *inputs.alignment.T_NED_W);
+    return CommandedMotion{{T_W_B.translation_m, Vec3::Zero(), Vec3::Zero()}, yaw_W_rad, true, std::nullopt};
   }
-  const Decision& decision = *motion_.decision();
-  const Motion motion = decision.brake.sample(now);
+  const Decision& decision = *in_force_.decision();
   const double yaw_W_rad = heading_.follow(now, decision.yaw_W_rad);
-  if (stream == Stream::kVelocity) {
-    return toNed(VelocitySetpoint{now, motion.velocity_m_s, yaw_W_rad}, motion_.anchor());
-  }
-  return toNed(MotionSetpoint{now, motion, yaw_W_rad}, motion_.anchor());
+  return CommandedMotion{decision.brake.sample(now), yaw_W_rad, stream == Stream::kMotion, in_force_.sequence()};
 }
 
 }  // namespace nanomap

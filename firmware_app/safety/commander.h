@@ -24,6 +24,8 @@ struct VehicleReport {
 /// What the planner gave last.
 struct PlanReport {
   std::optional<Decision> in_force;  ///< the last one that may be flown
+  std::uint64_t sequence = 0;        ///< of that one
+  Time newest_view{};                ///< exposure of the newest frame that it knows
   Reason reason = Reason::kNoView;   ///< of the last one, whatever it was
 };
 
@@ -33,13 +35,23 @@ struct CommandInputs {
   PlanReport plan;
   AutopilotState autopilot;
   Alignment alignment;
-  bool stalled = false;  ///< a thread of this process does not answer
+  bool stalled = false;    ///< a thread of this process does not answer
+  bool recording = false;  ///< vehicle and plan are those of a recording: only a simulated autopilot is flown
+};
+
+/// What the autopilot is told, in the world of the motion in force; of a hold, in that of the poses.
+struct CommandedMotion {
+  Motion motion_W;
+  double yaw_W_rad = 0.0;
+  bool with_position = true;              ///< else only the velocity is told
+  std::optional<std::uint64_t> decision;  ///< that it was sampled from, by the planner's count; empty for a hold
 };
 
 /// What goes to the autopilot.
 struct Command {
-  Verdict verdict;
-  std::optional<LocalNedTarget> target;  ///< empty: nothing is sent
+  SafetyVerdict verdict;
+  std::optional<CommandedMotion> motion;  ///< empty: nothing is sent
+  LocalNedTarget target;                  ///< the same for the autopilot; of use with a motion
   SystemStatus status = SystemStatus::kBoot;
 };
 
@@ -54,14 +66,14 @@ class Commander {
 
   [[nodiscard]] Command step(Time now, const CommandInputs& inputs);
 
-  [[nodiscard]] const std::optional<Decision>& inForce() const { return motion_.decision(); }
+  [[nodiscard]] const std::optional<Decision>& inForce() const { return in_force_.decision(); }
 
  private:
   [[nodiscard]] Situation situationAt(Time now, const CommandInputs& inputs) const;
-  [[nodiscard]] std::optional<LocalNedTarget> target(Time now, Stream stream, const CommandInputs& inputs);
+  [[nodiscard]] std::optional<CommandedMotion> motion(Time now, Stream stream, const CommandInputs& inputs);
 
   StateMachine machine_;
-  MotionInForce motion_;
+  MotionInForce in_force_;
   HeadingLimiter heading_;
 };
 

@@ -22,6 +22,8 @@ std::string_view toString(Fault fault) {
       return "autopilot";
     case Fault::kAlignment:
       return "alignment";
+    case Fault::kLive:
+      return "a simulated autopilot (a log is never flown)";
   }
   return "?";
 }

@@ -19,8 +19,9 @@ enum class Fault : std::uint8_t {
   kPlan,       ///< no plan, or too old a one
   kAutopilot,  ///< no autopilot is heard
   kAlignment,  ///< T_NED_W is not known well enough
+  kLive,       ///< what we see is a recording, and the autopilot flies a real vehicle
 };
-inline constexpr std::size_t kFaultCount = 9;
+inline constexpr std::size_t kFaultCount = 10;
 
 /// In a pilot's words, as what is missing: "depth images".
 [[nodiscard]] std::string_view toString(Fault fault);

@@ -16,16 +16,19 @@ namespace nanomap {
 class MotionInForce {
  public:
   /// @param newest     the last decision that may be flown (isFlyable), if there was one
+  /// @param sequence   the planner's count of it
   /// @param alignment  at this moment
-  void update(const std::optional<Decision>& newest, const Alignment& alignment);
+  void update(const std::optional<Decision>& newest, std::uint64_t sequence, const Alignment& alignment);
 
   [[nodiscard]] const std::optional<Decision>& decision() const { return decision_; }
+  [[nodiscard]] std::uint64_t sequence() const { return sequence_; }
 
   /// T_NED_W of the decision's world. @pre there is a decision
   [[nodiscard]] const NedFromWorld& anchor() const { return anchor_; }
 
  private:
   std::optional<Decision> decision_;
+  std::uint64_t sequence_ = 0;
   NedFromWorld anchor_;
 };
 

@@ -14,7 +14,7 @@ constexpr Duration kReasonLasts = std::chrono::seconds(1);
 
 bool isNews(Reason reason) { return reason != Reason::kFlying && reason != Reason::kSlowing; }
 
-PilotText textOf(const Verdict& verdict) {
+PilotText textOf(const SafetyVerdict& verdict) {
   switch (verdict.state) {
     case State::kWaiting:
       return {Severity::kWarning, "NanoMap waits for: " + verdict.faults.words()};
@@ -34,12 +34,12 @@ PilotText textOf(const Verdict& verdict) {
 
 }  // namespace
 
-std::optional<PilotText> PilotVoice::step(Time now, const Verdict& verdict, Reason reason) {
+std::optional<PilotText> PilotVoice::step(Time now, const SafetyVerdict& verdict, Reason reason) {
   if (auto text = ofState(now, verdict)) return text;
   return ofReason(now, verdict, reason);
 }
 
-std::optional<PilotText> PilotVoice::ofState(Time now, const Verdict& verdict) {
+std::optional<PilotText> PilotVoice::ofState(Time now, const SafetyVerdict& verdict) {
   const bool settling = !verdict.faults.any() && verdict.state != State::kReady && verdict.state != State::kFlying;
   if (settling) return std::nullopt;  // the next state will be said
   if (told_) {
@@ -55,7 +55,7 @@ std::optional<PilotText> PilotVoice::ofState(Time now, const Verdict& verdict) {
   return textOf(verdict);
 }
 
-std::optional<PilotText> PilotVoice::ofReason(Time now, const Verdict& verdict, Reason reason) {
+std::optional<PilotText> PilotVoice::ofReason(Time now, const SafetyVerdict& verdict, Reason reason) {
   if (reason != reason_) {
     reason_ = reason;
     reason_since_ = now;

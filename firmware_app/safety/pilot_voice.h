@@ -23,13 +23,13 @@ struct PilotText {
 /// in a hurry. Threads: one. Allocates.
 class PilotVoice {
  public:
-  [[nodiscard]] std::optional<PilotText> step(Time now, const Verdict& verdict, Reason reason);
+  [[nodiscard]] std::optional<PilotText> step(Time now, const SafetyVerdict& verdict, Reason reason);
 
  private:
-  [[nodiscard]] std::optional<PilotText> ofState(Time now, const Verdict& verdict);
-  [[nodiscard]] std::optional<PilotText> ofReason(Time now, const Verdict& verdict, Reason reason);
+  [[nodiscard]] std::optional<PilotText> ofState(Time now, const SafetyVerdict& verdict);
+  [[nodiscard]] std::optional<PilotText> ofReason(Time now, const SafetyVerdict& verdict, Reason reason);
 
-  std::optional<Verdict> told_;  ///< state, faults and criticality as last told
+  std::optional<SafetyVerdict> told_;  ///< state, faults and criticality as last told
   Time told_at_{};
   Reason reason_ = Reason::kFlying;
   Time reason_since_{};

@@ -37,7 +37,7 @@ std::string_view toString(Stream stream) {
   return "?";
 }
 
-Verdict StateMachine::step(const Situation& situation) {
+SafetyVerdict StateMachine::step(const Situation& situation) {
   faults_ = faultsOf(situation);
   if (faults_.any()) last_fault_ = situation.now;
   last_step_ = situation.now;
@@ -62,6 +62,7 @@ FaultSet StateMachine::faultsOf(const Situation& situation) const {
   if (older(situation.plan, parameters_.max_plan_age, now)) faults.add(Fault::kPlan);
   if (!situation.linked) faults.add(Fault::kAutopilot);
   if (!situation.anchored) faults.add(Fault::kAlignment);
+  if (situation.live_refused) faults.add(Fault::kLive);
   return faults;
 }
 

@@ -59,14 +59,15 @@ struct Situation {
   /// before, and still holds.
   bool anchored_before_jump = false;
 
-  bool linked = false;  ///< the autopilot is heard
+  bool live_refused = false;  ///< the autopilot flies a real vehicle, and what we see is a recording
+  bool linked = false;        ///< the autopilot is heard
   bool armed = false;
   bool external_control = false;
   std::uint64_t external_control_entries = 0;
 };
 
 /// What is to be done in the situation.
-struct Verdict {
+struct SafetyVerdict {
   State state = State::kWaiting;
   Stream stream = Stream::kNone;
   FaultSet faults;
@@ -79,7 +80,7 @@ class StateMachine {
   explicit StateMachine(const SafetyParameters& parameters) : parameters_(parameters) {}
 
   /// @param situation  of a later time than the one before
-  [[nodiscard]] Verdict step(const Situation& situation);
+  [[nodiscard]] SafetyVerdict step(const Situation& situation);
 
  private:
   [[nodiscard]] FaultSet faultsOf(const Situation& situation) const;

@@ -43,7 +43,7 @@ class Telemetry:
             self._senders[message_id](now, autopilot)
 
     def _heartbeat(self, now: float, autopilot) -> None:
-        base_mode = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+        base_mode = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | mavlink.MAV_MODE_FLAG_HIL_ENABLED
         if autopilot.armed:
             base_mode |= mavlink.MAV_MODE_FLAG_SAFETY_ARMED
         status = mavlink.MAV_STATE_ACTIVE if autopilot.armed else mavlink.MAV_STATE_STANDBY

@@ -74,10 +74,10 @@ TEST(Commander, HoldsWhereTheVehicleIsWhileReady) {
   const Vec3 here_W{5.0, 2.0, 1.5};
   const Command command = commander.step(atMs(0), inputsAt(atMs(0), here_W, 3.0));
   ASSERT_EQ(command.verdict.state, State::kReady);
-  ASSERT_TRUE(command.target);
-  EXPECT_NEAR((command.target->position_NED_m.cast<double>() - T_NED_W.point(here_W)).norm(), 0.0, kTolerance_m);
-  EXPECT_EQ(command.target->velocity_NED_m_s, Vec3f::Zero());
-  EXPECT_NEAR(command.target->yaw_NED_rad, 70.0 * kDeg, 1e-6);
+  ASSERT_TRUE(command.motion);
+  EXPECT_NEAR((command.target.position_NED_m.cast<double>() - T_NED_W.point(here_W)).norm(), 0.0, kTolerance_m);
+  EXPECT_EQ(command.target.velocity_NED_m_s, Vec3f::Zero());
+  EXPECT_NEAR(command.target.yaw_NED_rad, 70.0 * kDeg, 1e-6);
   EXPECT_EQ(command.status, SystemStatus::kStandby);
 }
 
@@ -87,7 +87,7 @@ TEST(Commander, SendsNothingWithoutAlignment) {
   inputs.alignment = {};
   const Command command = commander.step(atMs(0), inputs);
   EXPECT_EQ(command.verdict.state, State::kWaiting);
-  EXPECT_FALSE(command.target);
+  EXPECT_FALSE(command.motion);
   EXPECT_TRUE(command.verdict.faults.has(Fault::kAlignment));
 }
 
@@ -97,12 +97,12 @@ TEST_F(CommanderInFlight, SamplesTheMotionForTheMomentOfSending) {
   CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 4.0));
   now_ += kStep;
   const Command command = commander_.step(now_, inputs);
-  ASSERT_TRUE(command.target);
+  ASSERT_TRUE(command.motion);
   const double elapsed_s = toSeconds(now_ - inputs.plan.in_force->stamp);
   const Vec3 expected_W = kHere_W_m + Vec3(4.0 * elapsed_s - 2.0 * elapsed_s * elapsed_s, 0.0, 0.0);
-  EXPECT_NEAR((command.target->position_NED_m.cast<double>() - inputs.alignment.T_NED_W->point(expected_W)).norm(), 0.0,
+  EXPECT_NEAR((command.target.position_NED_m.cast<double>() - inputs.alignment.T_NED_W->point(expected_W)).norm(), 0.0,
               kTolerance_m);
-  EXPECT_NEAR(command.target->velocity_NED_m_s.cast<double>().norm(), 4.0 - 4.0 * elapsed_s, 1e-5);
+  EXPECT_NEAR(command.target.velocity_NED_m_s.cast<double>().norm(), 4.0 - 4.0 * elapsed_s, 1e-5);
 }
 
 TEST_F(CommanderInFlight, StalePlanIsFlownToAStandstillAndThenLeft) {
@@ -116,10 +116,10 @@ TEST_F(CommanderInFlight, StalePlanIsFlownToAStandstillAndThenLeft) {
     inputs.plan = last.plan;
     inputs.vehicle.state->velocity_W_m_s.x() = 1.0;  // never stands, by the estimator's word
     command = commander_.step(now_, inputs);
-    if (!command.target) break;
+    if (!command.motion) break;
     sent_at_end |=
-        (command.target->position_NED_m.cast<double>() - last.alignment.T_NED_W->point(end_W)).norm() < 0.01 &&
-        command.target->velocity_NED_m_s.norm() < 0.01F;
+        (command.target.position_NED_m.cast<double>() - last.alignment.T_NED_W->point(end_W)).norm() < 0.01 &&
+        command.target.velocity_NED_m_s.norm() < 0.01F;
   }
   EXPECT_TRUE(sent_at_end);
   EXPECT_EQ(command.verdict.state, State::kLost);
@@ -134,9 +134,9 @@ TEST_F(CommanderInFlight, LostPoseIsBrakedForWithVelocitiesOnly) {
   now_ += std::chrono::milliseconds(150);
   const Command command = commander_.step(now_, inputs);
   EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
-  ASSERT_TRUE(command.target);
-  EXPECT_EQ(command.target->type_mask & 0b111, 0b111);
-  EXPECT_GT(command.target->velocity_NED_m_s.norm(), 2.0F);
+  ASSERT_TRUE(command.motion);
+  EXPECT_EQ(command.target.type_mask & 0b111, 0b111);
+  EXPECT_GT(command.target.velocity_NED_m_s.norm(), 2.0F);
 }
 
 // The estimator's world jumps by tens of metres and 40 degrees; the autopilot's does not.
@@ -164,11 +164,11 @@ TEST_F(CommanderInFlight, JumpOfTheEstimatorNeverStepsTheSetpoint) {
       inputs.alignment.epoch = 1;
     }
     const Command command = commander_.step(now_, inputs);
-    ASSERT_TRUE(command.target) << command.verdict.faults.words();
+    ASSERT_TRUE(command.motion) << command.verdict.faults.words();
     if (last) {
-      EXPECT_LE((command.target->position_NED_m - *last).norm(), kLargestStep_m);
+      EXPECT_LE((command.target.position_NED_m - *last).norm(), kLargestStep_m);
     }
-    last = command.target->position_NED_m;
+    last = command.target.position_NED_m;
     new_world_flown |= command.verdict.state == State::kFlying && commander_.inForce()->consumed.epoch == 1;
   }
   EXPECT_TRUE(new_world_flown);

@@ -7,8 +7,8 @@
 namespace nanomap {
 namespace {
 
-Verdict verdict(State state, std::initializer_list<Fault> faults = {}, bool critical = false) {
-  Verdict made;
+SafetyVerdict verdict(State state, std::initializer_list<Fault> faults = {}, bool critical = false) {
+  SafetyVerdict made;
   made.state = state;
   for (Fault fault : faults) made.faults.add(fault);
   made.critical = critical;
@@ -17,7 +17,7 @@ Verdict verdict(State state, std::initializer_list<Fault> faults = {}, bool crit
 
 TEST(PilotVoice, SaysWhatIsMissingAndThenOnlyFromTimeToTime) {
   PilotVoice voice;
-  const Verdict waiting = verdict(State::kWaiting, {Fault::kDepth, Fault::kAlignment});
+  const SafetyVerdict waiting = verdict(State::kWaiting, {Fault::kDepth, Fault::kAlignment});
   const auto first = voice.step(atMs(0), waiting, Reason::kNoView);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->text, "NanoMap waits for: depth images, alignment");

@@ -25,12 +25,12 @@ class Machine {
   using Change = std::function<void(Situation&)>;
 
   /// Steps through `duration`, every situation changed by `change`; the last verdict.
-  Verdict run(Duration duration, const Change& change) {
+  SafetyVerdict run(Duration duration, const Change& change) {
     for (const Time end = now_ + duration; now_ < end;) verdict_ = step(change);
     return verdict_;
   }
 
-  Verdict step(const Change& change) {
+  SafetyVerdict step(const Change& change) {
     now_ += kStep;
     Situation situation = healthyAt(now_);
     change(situation);
@@ -61,7 +61,7 @@ class Machine {
   StateMachine machine_{SafetyParameters{}};
   Time now_ = atMs(1'000'000);
   Time began_{};
-  Verdict verdict_;
+  SafetyVerdict verdict_;
   std::map<State, Time> states_;
 };
 
@@ -69,7 +69,7 @@ TEST(StateMachine, BeginsWaitingAndSendsNothing) {
   StateMachine machine{SafetyParameters{}};
   Situation nothing;
   nothing.now = atMs(0);
-  const Verdict verdict = machine.step(nothing);
+  const SafetyVerdict verdict = machine.step(nothing);
   EXPECT_EQ(verdict.state, State::kWaiting);
   EXPECT_EQ(verdict.stream, Stream::kNone);
   EXPECT_EQ(verdict.faults.words(), "camera model, depth images, poses, a plan, autopilot, alignment");
@@ -79,7 +79,7 @@ TEST(StateMachine, IsReadyOnceNothingIsMissingForAWhile) {
   Machine machine;
   machine.step([](Situation& s) { s.depth.reset(); });
   EXPECT_EQ(machine.run(std::chrono::milliseconds(480), [](Situation&) {}).state, State::kWaiting);
-  const Verdict verdict = machine.run(std::chrono::milliseconds(40), [](Situation&) {});
+  const SafetyVerdict verdict = machine.run(std::chrono::milliseconds(40), [](Situation&) {});
   EXPECT_EQ(verdict.state, State::kReady);
   EXPECT_EQ(verdict.stream, Stream::kHold);
 }
@@ -113,7 +113,7 @@ TEST(StateMachine, OrderOnTheGroundWaitsForArming) {
     Machine::ordered(s);
     s.armed = false;
   };
-  const Verdict verdict = machine.run(5 * kSecond, disarmed);
+  const SafetyVerdict verdict = machine.run(5 * kSecond, disarmed);
   EXPECT_EQ(verdict.state, State::kReady);
   EXPECT_EQ(verdict.stream, Stream::kHold);
   EXPECT_EQ(machine.step(Machine::ordered).state, State::kFlying);
@@ -133,7 +133,7 @@ TEST(StateMachine, OrderIsForgottenWhenThePilotLeavesBeforeArming) {
 TEST(StateMachine, LeavesTheVehicleToThePilotAtOnce) {
   Machine machine;
   machine.fly();
-  const Verdict verdict = machine.step([](Situation& s) { s.external_control_entries = 1; });
+  const SafetyVerdict verdict = machine.step([](Situation& s) { s.external_control_entries = 1; });
   EXPECT_EQ(verdict.state, State::kReady);
   EXPECT_EQ(verdict.stream, Stream::kHold);
   EXPECT_EQ(machine.run(kSecond, [](Situation& s) { s.external_control_entries = 1; }).state, State::kReady);
@@ -160,7 +160,7 @@ TEST(StateMachine, BrakingIsTakenFromUsByThePilotToo) {
                 })
                 .state,
             State::kBraking);
-  const Verdict verdict = machine.step([](Situation& s) { s.depth.reset(); });
+  const SafetyVerdict verdict = machine.step([](Situation& s) { s.depth.reset(); });
   EXPECT_EQ(verdict.state, State::kWaiting);
   EXPECT_EQ(verdict.stream, Stream::kNone);
 }
@@ -226,7 +226,7 @@ TEST(StateMachine, StoppedProcessDoesNotGoOnWithAnOldMotion) {
   ASSERT_EQ(machine.step(orderedAt(now)).state, State::kFlying);
   Situation resumed = orderedAt(now);
   resumed.now = now + 10 * kSecond;
-  const Verdict verdict = machine.step(resumed);
+  const SafetyVerdict verdict = machine.step(resumed);
   EXPECT_EQ(verdict.state, State::kLost);
   EXPECT_EQ(verdict.stream, Stream::kNone);
   EXPECT_TRUE(verdict.faults.has(Fault::kHeldUp));
@@ -237,7 +237,7 @@ TEST(StateMachine, ShortPauseWithFreshDataBrakesWithinThePlannedTime) {
   Time now = atMs(0);
   for (int i = 0; i < 50; ++i, now += kStep) (void)machine.step(healthyAt(now));
   ASSERT_EQ(machine.step(orderedAt(now)).state, State::kFlying);
-  const Verdict verdict = machine.step(orderedAt(now + std::chrono::milliseconds(201)));
+  const SafetyVerdict verdict = machine.step(orderedAt(now + std::chrono::milliseconds(201)));
   EXPECT_EQ(verdict.state, State::kBraking);
   EXPECT_EQ(verdict.stream, Stream::kMotion);
 }
@@ -272,14 +272,14 @@ TEST_P(StateMachineFaults, AreBrakedForInTimeAndThenLetGo) {
     EXPECT_GT(machine.until(State::kBraking), fault.until_braking - kStep);
   }
 
-  const Verdict braking = machine.step(broken);
+  const SafetyVerdict braking = machine.step(broken);
   EXPECT_EQ(braking.state, State::kBraking);
   EXPECT_EQ(braking.stream, fault.stream);
   EXPECT_TRUE(braking.faults.has(fault.fault)) << braking.faults.words();
   EXPECT_FALSE(braking.critical);
   EXPECT_TRUE(machine.run(std::chrono::milliseconds(500), broken).critical);
 
-  const Verdict lost = machine.run(5 * kSecond, broken);
+  const SafetyVerdict lost = machine.run(5 * kSecond, broken);
   EXPECT_EQ(lost.state, State::kLost);
   EXPECT_EQ(lost.stream, Stream::kNone);
   EXPECT_EQ(machine.until(State::kLost), kSecond + SafetyParameters{}.stop_margin);
@@ -319,7 +319,7 @@ TEST(StateMachine, IntermittentFaultNeverFliesOn) {
   Machine machine;
   machine.fly();
   for (int i = 0; i < 20; ++i) {
-    const Verdict braking = machine.run(std::chrono::milliseconds(100), [](Situation& s) {
+    const SafetyVerdict braking = machine.run(std::chrono::milliseconds(100), [](Situation& s) {
       Machine::ordered(s);
       s.depth = s.now - kSecond;
     });

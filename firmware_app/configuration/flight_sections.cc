@@ -1,0 +1,124 @@
+#include "firmware_app/configuration/sections.h"
+
+namespace nanomap {
+namespace {
+
+constexpr NumberRule kDuration_s{0.0, 60.0, true};
+
+Section mavlinkSection() {
+  return {
+      "mavlink",
+      "The autopilot, and what it is told.",
+      {textKey(
+           "url", "udpin://0.0.0.0:14540, udpout://host:port, tcpout://host:port or serial:///dev/ttyACM0:921600.",
+           TextRule{255}, [](auto& c) -> auto& { return c.mavlink.link.url; }),
+       integerKey(
+           "system_id", "The vehicle's: a companion computer is a part of it.", {1, 255},
+           [](auto& c) -> auto& { return c.mavlink.link.system_id; }),
+       integerKey(
+           "component_id", "Ours; 196 is MAV_COMP_ID_OBSTACLE_AVOIDANCE.", {1, 255},
+           [](auto& c) -> auto& { return c.mavlink.link.component_id; }),
+       durationKey(
+           "heartbeat_timeout_s", "The autopilot is gone if it was not heard for longer.", kDuration_s,
+           [](auto& c) -> auto& { return c.mavlink.link.heartbeat_timeout; }),
+       numberKey(
+           "pose_rate_hz", "How often the autopilot is asked to tell its position and attitude.", {1.0, 400.0},
+           [](auto& c) -> auto& { return c.mavlink.link.pose_rate_hz; }),
+       numberKey(
+           "setpoint_rate_hz", "How often it is told where to fly.", {20.0, 400.0},
+           [](auto& c) -> auto& { return c.mavlink.setpoint_rate_hz; }),
+       booleanKey(
+           "send_obstacles", "Send OBSTACLE_DISTANCE: the nearest obstacles of the newest depth frame, by bearing.",
+           [](auto& c) -> auto& { return c.mavlink.send_obstacles; }),
+       numberKey(
+           "obstacles_below_m", "For that, an obstacle is what is no more than this below the body,", {0.0, 100.0},
+           [](auto& c) -> auto& { return c.mavlink.obstacle_band.below_m; }),
+       numberKey(
+           "obstacles_above_m", "and no more than this above it.", {0.0, 100.0},
+           [](auto& c) -> auto& { return c.mavlink.obstacle_band.above_m; }),
+       booleanKey(
+           "send_odometry",
+           "Send ODOMETRY: the autopilot flies by the poses that we get. PX4: EKF2_EV_CTRL; ArduPilot: EK3_SRC1_*,\n"
+           "VISO_TYPE.",
+           [](auto& c) -> auto& { return c.mavlink.send_odometry; })},
+      {}};
+}
+
+Section alignmentSection() {
+  return {"alignment",
+          "Where the estimator's world is in the autopilot's, from both pose streams. Without it nothing is flown.",
+          {durationKey(
+               "window_s", "Of the poses that are compared.", kDuration_s,
+               [](auto& c) -> auto& { return c.mavlink.alignment.window; }),
+           integerKey(
+               "min_pairs", "Fewer pairs of poses, one each 50 ms, say nothing.", {3, 1000},
+               [](auto& c) -> auto& { return c.mavlink.alignment.min_pairs; }),
+           durationKey(
+               "max_age_s", "Of the newest pair.", kDuration_s,
+               [](auto& c) -> auto& { return c.mavlink.alignment.max_age; }),
+           numberKey(
+               "max_position_residual_m", "The two streams fit each other up to this, in the median over the window,",
+               {0.0, 100.0, true}, [](auto& c) -> auto& { return c.mavlink.alignment.max_position_residual_m; }),
+           numberKey(
+               "max_heading_residual_rad", "and this.", {0.0, 3.2, true},
+               [](auto& c) -> auto& { return c.mavlink.alignment.max_heading_residual_rad; }),
+           numberKey(
+               "jump_m", "A pair that is off by more has jumped, if those after it have too.", {0.0, 100.0, true},
+               [](auto& c) -> auto& { return c.mavlink.alignment.jump_m; }),
+           numberKey(
+               "jump_rad", "The same for the heading.", {0.0, 3.2, true},
+               [](auto& c) -> auto& { return c.mavlink.alignment.jump_rad; }),
+           numberKey(
+               "follow_m_s", "How fast setpoints may be shifted as it is known better.", {0.0, 10.0, true},
+               [](auto& c) -> auto& { return c.mavlink.alignment.follow_m_s; }),
+           numberKey(
+               "follow_rad_s", "How fast they may be turned.", {0.0, 3.2, true},
+               [](auto& c) -> auto& { return c.mavlink.alignment.follow_rad_s; })},
+          {}};
+}
+
+Section safetySection() {
+  return {"safety",
+          "When what is known is too old to fly on. Then the brake that was verified with the last good plan is flown, "
+          "and\n"
+          "after it nothing is sent any more, so that the autopilot's own failsafe acts.",
+          {durationKey(
+               "max_plan_age_s", "Of the plan that is flown. planner.brake_after_s must cover it.", kDuration_s,
+               [](auto& c) -> auto& { return c.safety.max_plan_age; }),
+           durationKey(
+               "max_depth_age_s", "Of the newest depth frame, from its exposure.", kDuration_s,
+               [](auto& c) -> auto& { return c.safety.max_depth_age; }),
+           durationKey(
+               "max_pose_age_s", "Of the newest pose.", kDuration_s,
+               [](auto& c) -> auto& { return c.safety.max_pose_age; }),
+           durationKey(
+               "max_stamp_lead_s", "Stamps farther ahead of our clock are of another clock.", kDuration_s,
+               [](auto& c) -> auto& { return c.safety.max_stamp_lead; }),
+           durationKey(
+               "max_step_s", "This process was held up if it did not send for longer.", kDuration_s,
+               [](auto& c) -> auto& { return c.safety.max_step; }),
+           durationKey(
+               "critical_after_s", "A fault in flight that has lasted for this is critical.", kDuration_s,
+               [](auto& c) -> auto& { return c.safety.critical_after; }),
+           durationKey(
+               "settle_s", "So long without a fault, and it counts as over.", kDuration_s,
+               [](auto& c) -> auto& { return c.safety.settle; }),
+           durationKey(
+               "patience_s",
+               "A vehicle that stands is let go when a fault has lasted for this; not below\n"
+               "critical_after_s.",
+               kDuration_s, [](auto& c) -> auto& { return c.safety.patience; }),
+           durationKey(
+               "stop_margin_s", "This long after a brake should have ended, the vehicle is let go in any case.",
+               kDuration_s, [](auto& c) -> auto& { return c.safety.stop_margin; }),
+           numberKey(
+               "standstill_m_s", "A slower vehicle stands.", {0.0, 10.0, true},
+               [](auto& c) -> auto& { return c.safety.standstill_m_s; })},
+          {}};
+}
+
+}  // namespace
+
+std::vector<Section> flightSections() { return {mavlinkSection(), alignmentSection(), safetySection()}; }
+
+}  // namespace nanomap

@@ -1,0 +1,56 @@
+#include "firmware_app/stages/ingest.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace nanomap {
+
+Ingest::Ingest(const LcmParameters& lcm, StampClock clock, const IngestOutputs& outputs)
+    : intake_(lcm), clock_(clock), outputs_(outputs) {}
+
+Time Ingest::arrivalAt(Time now) {
+  const Time whole = std::chrono::floor<std::chrono::microseconds>(now);
+  last_arrival_ = std::max(whole, last_arrival_ + std::chrono::microseconds(1));
+  return last_arrival_;
+}
+
+void Ingest::take(InputKind kind, Bytes message, Time arrival) {
+  const auto index = static_cast<std::size_t>(kind);
+  ++counters_.messages[index];
+  auto outcome = intake_.read(kind, message);
+  if (const auto* fault = std::get_if<DecodeFault>(&outcome)) {
+    ++counters_.decode_faults[index][static_cast<std::size_t>(*fault)];
+  } else if (const auto* convert_fault = std::get_if<ConvertFault>(&outcome)) {
+    ++counters_.convert_faults[index][static_cast<std::size_t>(*convert_fault)];
+  } else {
+    Input& input = std::get<Input>(outcome);
+    const auto stamp = stampOf(input);
+    const Duration shift = stamp ? clock_.shift(*stamp, arrival) : Duration::zero();
+    const Duration delay = stamp ? arrival - (*stamp + shift) : Duration::zero();
+    if (kind == InputKind::kPose) counters_.newest_pose_delay = delay;
+    if (kind == InputKind::kDepth) counters_.newest_depth_delay = delay;
+    if (delay < -kMaxStampLead) {
+      ++counters_.from_future[index];
+    } else {
+      shiftStamps(input, shift);
+      hand(std::move(input), arrival, shift);
+    }
+  }
+  outputs_.counters.put([this](IngestCounters& slot) { slot = counters_; });
+}
+
+void Ingest::hand(Input&& input, Time arrival, Duration stamp_shift) {
+  if (auto* depth = std::get_if<DepthInput>(&input)) {
+    outputs_.frames.put([&](ArrivedFrame& slot) { slot = {arrival, stamp_shift, std::move(*depth)}; });
+    outputs_.capture_bell.ring();
+  } else if (auto* camera = std::get_if<CameraInput>(&input)) {
+    outputs_.cameras.push([&](ArrivedCamera& slot) { slot = {arrival, std::move(*camera)}; });
+    outputs_.index_bell.ring();
+  } else {
+    outputs_.inputs.push([&](ArrivedInput& slot) { slot = {arrival, stamp_shift, std::move(input)}; });
+    outputs_.chain_bell.ring();
+  }
+}
+
+}  // namespace nanomap

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "drivers/lcm/message_source.h"
+#include "firmware_app/handover/doorbell.h"
+#include "firmware_app/handover/mailbox.h"
+#include "firmware_app/handover/slot_queue.h"
+#include "firmware_app/pipeline/message_intake.h"
+#include "firmware_app/stages/handed_over.h"
+#include "firmware_app/stages/stamp_clock.h"
+
+namespace nanomap {
+
+/// A stamp farther ahead of our time than this is of another clock; taken in, it would hold up all that follows.
+inline constexpr Duration kMaxStampLead = std::chrono::milliseconds(500);
+
+/// All messages, by what became of them here.
+struct IngestCounters {
+  std::array<std::uint64_t, kInputKindCount> messages{};
+  std::array<std::array<std::uint64_t, kDecodeFaultCount>, kInputKindCount> decode_faults{};
+  std::array<std::array<std::uint64_t, kConvertFaultCount>, kInputKindCount> convert_faults{};
+  std::array<std::uint64_t, kInputKindCount> from_future{};
+  Duration newest_pose_delay{};  ///< from its stamp to its arrival
+  Duration newest_depth_delay{};
+};
+
+/// Where the ingest puts what it has read. Borrowed.
+struct IngestOutputs {
+  SlotQueue<ArrivedInput>& inputs;    ///< for the chain,
+  Doorbell& chain_bell;               ///< which is rung
+  Mailbox<ArrivedFrame>& frames;      ///< for the capture stage,
+  Doorbell& capture_bell;             ///< which is rung
+  SlotQueue<ArrivedCamera>& cameras;  ///< for the index stage,
+  Doorbell& index_bell;               ///< which is rung
+  Mailbox<IngestCounters>& counters;
+};
+
+/// Takes messages in as they arrive: reads them, moves their stamps to our clock, hands them on. A frame that nobody
+/// has captured yet is replaced by the next.
+/// Threads: one, of no real-time scheduling: reading allocates.
+class Ingest {
+ public:
+  Ingest(const LcmParameters& lcm, StampClock clock, const IngestOutputs& outputs);
+
+  /// The arrival that a message taken in at `now` is told by: a whole microsecond, later than any before.
+  [[nodiscard]] Time arrivalAt(Time now);
+
+  /// @param arrival  of arrivalAt()
+  void take(InputKind kind, Bytes message, Time arrival);
+
+  /// Empty if the channel is none of those configured.
+  [[nodiscard]] std::optional<InputKind> kindOf(std::string_view channel) const { return intake_.kindOf(channel); }
+  [[nodiscard]] const IngestCounters& counters() const { return counters_; }
+
+ private:
+  void hand(Input&& input, Time arrival, Duration stamp_shift);
+
+  MessageIntake intake_;
+  StampClock clock_;
+  IngestOutputs outputs_;
+  IngestCounters counters_;
+  Time last_arrival_{};
+};
+
+}  // namespace nanomap

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "firmware_app/handover/mailbox.h"
+#include "firmware_app/handover/slot_queue.h"
+#include "firmware_app/safety/commander.h"
+#include "firmware_app/stages/handed_over.h"
+#include "planner/receding_horizon.h"
+
+namespace nanomap {
+
+/// What the planner takes from and gives to. Borrowed.
+struct PlanPorts {
+  Mailbox<PlanningMoment>& moments;
+  const std::atomic<bool>& flown;      ///< the vehicle is ours: plans go on from the motion in force
+  Mailbox<PlanReport>& plans;          ///< for the sink
+  SlotQueue<MadeDecision>& decisions;  ///< for the recorder
+};
+
+/// Stage T4 as it runs: a plan for each moment that the chain asks for one at. The newest wins. While the vehicle is in
+/// the pilot's hands, each plan starts from what is measured, so that the first one that is flown does.
+/// Allocates: no, except inside FLANN. Threads: one.
+class PlanStage {
+ public:
+  /// @throws std::invalid_argument naming the parameter that is wrong
+  PlanStage(const PlannerParameters& parameters, const PlanPorts& ports);
+
+  /// The decision for the moment that waits; empty if none does.
+  /// @param now  what is planned for; cut to whole microseconds
+  [[nodiscard]] const MadeDecision* run(Time now);
+
+ private:
+  RecedingHorizon horizon_;
+  PlanPorts ports_;
+  MadeDecision made_;
+  std::uint64_t next_sequence_ = 0;
+  std::uint64_t in_force_sequence_ = 0;
+  Time newest_view_{};
+};
+
+}  // namespace nanomap

@@ -1,0 +1,113 @@
+#include "firmware_app/stages/sink_stage.h"
+
+namespace nanomap {
+namespace {
+
+/// OBSTACLE_DISTANCE is wanted at about 10 Hz.
+constexpr Duration kObstaclePeriod = std::chrono::milliseconds(100);
+
+/// EKF2 takes external vision at 30 to 50 Hz.
+constexpr Duration kOdometryPeriod = std::chrono::milliseconds(20);
+
+bool isDue(std::optional<Time>& last, Time now, Duration period) {
+  if (last && now - *last < period) return false;
+  last = now;
+  return true;
+}
+
+BodyPose poseOf(const VehicleState& state) {
+  BodyPose pose;
+  pose.stamp = state.stamp;
+  pose.T_W_B = state.T_W_B;
+  pose.epoch = state.epoch;
+  pose.sequence = state.sequence;
+  return pose;
+}
+
+std::optional<Duration> ageOf(const std::optional<Time>& stamp, Time now) {
+  if (!stamp) return std::nullopt;
+  return now - *stamp;
+}
+
+}  // namespace
+
+SinkStage::SinkStage(const SinkParameters& parameters, AutopilotLink& link, const SinkPorts& ports)
+    : parameters_(parameters),
+      link_(link),
+      ports_(ports),
+      alignment_(parameters.alignment),
+      commander_(parameters.safety, parameters.max_yaw_rate_rad_s) {}
+
+void SinkStage::run(Time now) {
+  link_.keepAlive(status_);
+  takeIn();
+  inputs_.autopilot = link_.autopilot();
+  inputs_.recording = parameters_.recording;
+  inputs_.alignment = alignment_.alignment(now);
+  inputs_.stalled = ports_.stalled.load(std::memory_order_relaxed);
+
+  const Command command = commander_.step(now, inputs_);
+  status_ = command.status;
+  const State state = command.verdict.state;
+  ports_.flown.store(state == State::kFlying || state == State::kBraking, std::memory_order_relaxed);
+  send(now, command);
+  if (const auto text = voice_.step(now, command.verdict, inputs_.plan.reason)) {
+    if (link_.sendText(text->severity, text->text) == SendResult::kSent) ++counters_.texts;
+  }
+  if (parameters_.send_obstacles && !isRefused() && isDue(obstacles_sent_, now, kObstaclePeriod)) sendObstacles(now);
+
+  counters_.alignment = alignment_.counters();
+  ports_.report.put([&](SinkReport& report) {
+    report.verdict = command.verdict;
+    report.alignment = inputs_.alignment;
+    report.autopilot = inputs_.autopilot;
+    report.reason = inputs_.plan.reason;
+    report.depth_age = ageOf(inputs_.vehicle.newest_view, now);
+    report.pose_age = inputs_.vehicle.state ? ageOf(inputs_.vehicle.state->stamp, now) : std::nullopt;
+    report.plan_age = commander_.inForce() ? ageOf(commander_.inForce()->stamp, now) : std::nullopt;
+    report.counters = counters_;
+  });
+}
+
+void SinkStage::takeIn() {
+  while (ports_.vehicle.pop([this](const VehicleReport& report) { inputs_.vehicle = report; })) {
+    if (!inputs_.vehicle.state) continue;
+    alignment_.addWorldPose(poseOf(*inputs_.vehicle.state));
+    if (parameters_.send_odometry && !isRefused() &&
+        isDue(odometry_sent_, inputs_.vehicle.state->stamp, kOdometryPeriod)) {
+      sendOdometry(*inputs_.vehicle.state);
+    }
+  }
+  while (const auto pose = link_.takePose()) alignment_.addAutopilotPose(*pose);
+  ports_.plans.take([this](const PlanReport& report) { inputs_.plan = report; });
+}
+
+bool SinkStage::isRefused() const {
+  return parameters_.recording && inputs_.autopilot.linked && !inputs_.autopilot.simulated;
+}
+
+void SinkStage::send(Time now, const Command& command) {
+  if (command.motion) {
+    const bool sent = link_.send(command.target) == SendResult::kSent;
+    ++(sent ? counters_.setpoints : counters_.setpoints_failed);
+  }
+  ports_.setpoints.push([&](SentSetpoint& slot) { slot = {now, command.verdict, command.motion}; });
+}
+
+void SinkStage::sendOdometry(const VehicleState& state) {
+  VioOdometry odometry;
+  odometry.stamp = state.stamp;
+  odometry.epoch = state.epoch;
+  odometry.T_W_B = state.T_W_B;
+  if (state.velocity_W_m_s.allFinite()) odometry.velocity_W_m_s = state.velocity_W_m_s;
+  (void)link_.send(toFrd(odometry));  // the link counts what it refuses
+}
+
+void SinkStage::sendObstacles(Time now) {
+  const bool fresh = ports_.newest.take([&](const ChainSnapshot& newest) {
+    (void)link_.send(obstacleDistances(newest, parameters_.obstacle_band, parameters_.query));
+  });
+  if (!fresh) obstacles_sent_ = now - kObstaclePeriod;  // as soon as there is something to tell
+}
+
+}  // namespace nanomap

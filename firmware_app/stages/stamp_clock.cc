@@ -1,0 +1,45 @@
+#include "firmware_app/stages/stamp_clock.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace nanomap {
+namespace {
+
+void move(Time& stamp, Duration shift) {
+  constexpr Duration kLatest(std::int64_t{1} << 62);
+  stamp = Time(std::clamp(stamp.time_since_epoch() + shift, Duration::zero(), kLatest));
+}
+
+}  // namespace
+
+StampClock::StampClock(ClockDomain domain, Duration realtime_ahead) {
+  if (domain == ClockDomain::kMonotonic) shift_ = Duration::zero();
+  if (domain == ClockDomain::kRealtime) shift_ = -realtime_ahead;
+}
+
+Duration StampClock::shift(Time stamp, Time arrival) {
+  if (!shift_) shift_ = arrival - stamp;
+  return *shift_;
+}
+
+std::optional<Time> stampOf(const Input& input) {
+  if (const auto* pose = std::get_if<PoseInput>(&input)) return pose->pose.stamp;
+  if (const auto* depth = std::get_if<DepthInput>(&input)) return depth->image.stamp;
+  if (const auto* goal = std::get_if<Goal>(&input)) return goal->stamp;
+  if (const auto* correction = std::get_if<Correction>(&input)) {
+    if (!correction->poses.empty()) return correction->poses.back().stamp;
+  }
+  return std::nullopt;
+}
+
+void shiftStamps(Input& input, Duration shift) {
+  if (auto* pose = std::get_if<PoseInput>(&input)) move(pose->pose.stamp, shift);
+  if (auto* depth = std::get_if<DepthInput>(&input)) move(depth->image.stamp, shift);
+  if (auto* goal = std::get_if<Goal>(&input)) move(goal->stamp, shift);
+  if (auto* correction = std::get_if<Correction>(&input)) {
+    for (CorrectedPose& pose : correction->poses) move(pose.stamp, shift);
+  }
+}
+
+}  // namespace nanomap
