@@ -11,6 +11,7 @@
 #include "drivers/mavlink/alignment_estimator.h"
 #include "drivers/mavlink/link_parameters.h"
 #include "drivers/mavlink/obstacle_distance.h"
+#include "firmware_app/realtime/thread_layout.h"
 #include "firmware_app/safety/safety_parameters.h"
 #include "planner/planner_parameters.h"
 
@@ -59,6 +60,7 @@ struct Configuration {
   LcmParameters lcm;
   MavlinkParameters mavlink;
   SafetyParameters safety;
+  std::optional<ThreadLayout> layout;  ///< [realtime]; empty: as the machine's cores suggest
 };
 
 }  // namespace nanomap

@@ -160,6 +160,7 @@ const std::vector<Section>& sections() {
     for (Section& section : plannerSections()) ordered.push_back(std::move(section));
     ordered.push_back(lcmSection());
     for (Section& section : flightSections()) ordered.push_back(std::move(section));
+    ordered.push_back(realtimeSection());
     return ordered;
   }();
   return all;

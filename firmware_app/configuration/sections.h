@@ -29,6 +29,9 @@ struct QualifiedKey {
 /// Make [planner] and what belongs to it, named as planner/planner_parameters.h names the parts.
 [[nodiscard]] std::vector<Section> plannerSections();
 
+/// Makes [realtime], which may be missing: the machine decides, then.
+[[nodiscard]] Section realtimeSection();
+
 /// Make [mavlink], [alignment] and [safety]: what concerns the autopilot and the pilot.
 [[nodiscard]] std::vector<Section> flightSections();
 

@@ -62,7 +62,8 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs) const {
     situation.speed_m_s = vehicle.state->velocity_W_m_s.norm();
     situation.anchored = alignment.verdict == AlignmentVerdict::kGood && alignment.epoch == vehicle.state->epoch;
   }
-  if (const auto& decision = in_force_.decision()) {
+  // Before the first alignment nothing is in force: the plan itself is not what is missing then.
+  if (const auto& decision = in_force_.decision() ? in_force_.decision() : inputs.plan.in_force) {
     situation.plan = decision->stamp;
     situation.brake_end = decision->brake.start() + fromSeconds(decision->brake.duration_s());
     situation.anchored_before_jump = decision->consumed.epoch != alignment.epoch;

@@ -26,7 +26,7 @@ void Ingest::take(InputKind kind, Bytes message, Time arrival) {
   } else {
     Input& input = std::get<Input>(outcome);
     const auto stamp = stampOf(input);
-    const Duration shift = stamp ? clock_.shift(*stamp, arrival) : Duration::zero();
+    const Duration shift = stamp ? clock_.shift(kind, *stamp, arrival) : Duration::zero();
     const Duration delay = stamp ? arrival - (*stamp + shift) : Duration::zero();
     if (kind == InputKind::kPose) counters_.newest_pose_delay = delay;
     if (kind == InputKind::kDepth) counters_.newest_depth_delay = delay;

@@ -5,7 +5,7 @@ namespace nanomap {
 PlanStage::PlanStage(const PlannerParameters& parameters, const PlanPorts& ports)
     : horizon_(parameters), ports_(ports) {}
 
-const MadeDecision* PlanStage::run(Time now) {
+bool PlanStage::run(Time now) {
   const Time whole = std::chrono::floor<std::chrono::microseconds>(now);
   const bool planned = ports_.moments.take([&](const PlanningMoment& moment) {
     made_.flown = ports_.flown.load(std::memory_order_relaxed);
@@ -15,13 +15,14 @@ const MadeDecision* PlanStage::run(Time now) {
     newest_view_ = moment.newest_view;
     made_.sequence = next_sequence_++;
   });
-  if (!planned) return nullptr;
+  if (!planned) return false;
   if (isFlyable(made_.decision)) in_force_sequence_ = made_.sequence;
   ports_.plans.put([this](PlanReport& slot) {
     slot = {horizon_.inForce(), in_force_sequence_, newest_view_, made_.decision.reason};
   });
   ports_.decisions.push([this](MadeDecision& slot) { slot = made_; });
-  return &made_;
+  ports_.newest.put([this](MadeDecision& slot) { slot = made_; });
+  return true;
 }
 
 }  // namespace nanomap

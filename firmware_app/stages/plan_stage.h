@@ -17,6 +17,7 @@ struct PlanPorts {
   const std::atomic<bool>& flown;      ///< the vehicle is ours: plans go on from the motion in force
   Mailbox<PlanReport>& plans;          ///< for the sink
   SlotQueue<MadeDecision>& decisions;  ///< for the recorder
+  Mailbox<MadeDecision>& newest;       ///< for the health report
 };
 
 /// Stage T4 as it runs: a plan for each moment that the chain asks for one at. The newest wins. While the vehicle is in
@@ -27,9 +28,9 @@ class PlanStage {
   /// @throws std::invalid_argument naming the parameter that is wrong
   PlanStage(const PlannerParameters& parameters, const PlanPorts& ports);
 
-  /// The decision for the moment that waits; empty if none does.
+  /// Plans for the moment that waits. False if none does.
   /// @param now  what is planned for; cut to whole microseconds
-  [[nodiscard]] const MadeDecision* run(Time now);
+  bool run(Time now);
 
  private:
   RecedingHorizon horizon_;

@@ -40,7 +40,7 @@ SinkStage::SinkStage(const SinkParameters& parameters, AutopilotLink& link, cons
 
 void SinkStage::run(Time now) {
   link_.keepAlive(status_);
-  takeIn();
+  takeIn(now);
   inputs_.autopilot = link_.autopilot();
   inputs_.recording = parameters_.recording;
   inputs_.alignment = alignment_.alignment(now);
@@ -69,7 +69,7 @@ void SinkStage::run(Time now) {
   });
 }
 
-void SinkStage::takeIn() {
+void SinkStage::takeIn(Time now) {
   while (ports_.vehicle.pop([this](const VehicleReport& report) { inputs_.vehicle = report; })) {
     if (!inputs_.vehicle.state) continue;
     alignment_.addWorldPose(poseOf(*inputs_.vehicle.state));
@@ -79,7 +79,8 @@ void SinkStage::takeIn() {
     }
   }
   while (const auto pose = link_.takePose()) alignment_.addAutopilotPose(*pose);
-  ports_.plans.take([this](const PlanReport& report) { inputs_.plan = report; });
+  const bool planned = ports_.plans.take([this](const PlanReport& report) { inputs_.plan = report; });
+  if (planned) ports_.latencies.push([&](Duration& slot) { slot = now - inputs_.plan.newest_view; });
 }
 
 bool SinkStage::isRefused() const {

@@ -60,6 +60,7 @@ struct SinkPorts {
   const std::atomic<bool>& stalled;    ///< a thread of this process does not answer
   SlotQueue<SentSetpoint>& setpoints;  ///< for the recorder
   Mailbox<SinkReport>& report;
+  SlotQueue<Duration>& latencies;  ///< from a frame's exposure to the first setpoint of a plan that knows it
 };
 
 /// The last stage as it runs: what is known of vehicle, plan and autopilot to what the autopilot is told. The only one
@@ -75,7 +76,7 @@ class SinkStage {
   void run(Time now);
 
  private:
-  void takeIn();
+  void takeIn(Time now);
   /// A live autopilot, and a recording to fly by.
   [[nodiscard]] bool isRefused() const;
   void send(Time now, const Command& command);

@@ -6,6 +6,9 @@
 namespace nanomap {
 namespace {
 
+/// From a pose's stamp to its arrival, with a log: as much as scheduling may shake it by.
+constexpr Duration kPoseDelay = std::chrono::milliseconds(10);
+
 void move(Time& stamp, Duration shift) {
   constexpr Duration kLatest(std::int64_t{1} << 62);
   stamp = Time(std::clamp(stamp.time_since_epoch() + shift, Duration::zero(), kLatest));
@@ -18,8 +21,10 @@ StampClock::StampClock(ClockDomain domain, Duration realtime_ahead) {
   if (domain == ClockDomain::kRealtime) shift_ = -realtime_ahead;
 }
 
-Duration StampClock::shift(Time stamp, Time arrival) {
-  if (!shift_) shift_ = arrival - stamp;
+Duration StampClock::shift(InputKind kind, Time stamp, Time arrival) {
+  if (shift_) return *shift_;
+  if (kind != InputKind::kPose) return arrival - stamp;
+  shift_ = arrival - stamp - kPoseDelay;
   return *shift_;
 }
 

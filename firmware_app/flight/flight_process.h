@@ -1,0 +1,92 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/lcm/message_source.h"
+#include "drivers/mavlink/autopilot_link.h"
+#include "firmware_app/configuration/configuration.h"
+#include "firmware_app/flight/hand_overs.h"
+#include "firmware_app/flight/worker.h"
+#include "firmware_app/realtime/thread_layout.h"
+#include "firmware_app/stages/chain_keeper.h"
+#include "firmware_app/stages/depth_source.h"
+#include "firmware_app/stages/index_stage.h"
+#include "firmware_app/stages/ingest.h"
+#include "firmware_app/stages/plan_stage.h"
+#include "firmware_app/stages/sink_stage.h"
+#include "firmware_app/supervision/watchdog.h"
+
+namespace nanomap {
+
+struct FlightOptions {
+  ThreadLayout layout;
+  bool demand_realtime = true;
+  /// Told every message of a configured channel as it arrived, on the ingest's thread, before anyone else.
+  std::function<void(const ReceivedMessage&, Time arrival)> on_message = [](const ReceivedMessage&, Time) {};
+};
+
+/// The stages on their threads, from messages to setpoints: what flies. Recorder and health take from its hand-overs.
+/// Threads: made and destroyed by one, which must have no real-time scheduling: the plain threads are made first, and
+/// inherit it.
+class FlightProcess {
+ public:
+  /// Starts every thread. Borrows source and link, which must outlive it.
+  /// @throws std::invalid_argument naming the parameter that is wrong; std::runtime_error naming what the machine
+  ///         refuses and what to do
+  FlightProcess(const Configuration& configuration, const FlightOptions& options, MessageSource& source,
+                AutopilotLink& link);
+  ~FlightProcess();
+
+  [[nodiscard]] HandOvers& handOvers() { return hand_overs_; }
+
+  /// The source has nothing more, and never will.
+  [[nodiscard]] bool sourceEnded() const { return source_ended_.load(std::memory_order_relaxed); }
+
+  /// All threads; those in real time first, by stage.
+  [[nodiscard]] std::vector<const Worker*> workers() const;
+
+  /// What the watchdog has found since it was asked last: for one thread, which tells it to people.
+  [[nodiscard]] std::vector<std::string> takeStalls();
+
+  /// Rounds of the sink that began late by more than half a period.
+  [[nodiscard]] std::uint64_t lateSetpoints() const { return late_setpoints_.load(std::memory_order_relaxed); }
+
+ private:
+  void ingest(MessageSource& source);
+  void capture();
+  void index();
+  void chain();
+  void plan();
+  void sink();
+  void watch();
+
+  FlightOptions options_;
+  HandOvers hand_overs_;
+  Duration setpoint_period_;
+
+  Ingest ingest_;
+  MessageDepthSource depth_source_;
+  ArrivedFrame captured_;  ///< the capture thread's own
+  bool captured_one_ = false;
+  IndexStage index_;
+  ChainKeeper chain_;
+  PlanStage plan_;
+  SinkStage sink_;
+  Time next_setpoint_{};
+
+  std::atomic<bool> source_ended_{false};
+  std::atomic<std::uint64_t> late_setpoints_{0};
+  SlotQueue<Stall> stalls_{64};
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::unique_ptr<Watchdog> watchdog_;
+  std::unique_ptr<Worker> watcher_;
+  Time next_watch_{};
+};
+
+}  // namespace nanomap
