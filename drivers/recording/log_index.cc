@@ -1,5 +1,6 @@
 #include "drivers/recording/log_index.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <optional>
@@ -104,6 +105,25 @@ std::string_view toString(LogDamage::Cause cause) {
       return "an event cut off by the end of the file";
   }
   return "?";
+}
+
+void LogIndex::append(LogIndex next) {
+  std::vector<std::uint32_t> renumbered;
+  for (std::string& channel : next.channels) {
+    const auto known = std::find(channels.begin(), channels.end(), channel);
+    renumbered.push_back(static_cast<std::uint32_t>(known - channels.begin()));
+    if (known == channels.end()) channels.push_back(std::move(channel));
+  }
+  for (LogEvent event : next.events) {
+    event.offset_bytes += size_bytes;
+    event.channel = renumbered[event.channel];
+    events.push_back(event);
+  }
+  for (LogDamage found : next.damage) {
+    found.offset_bytes += size_bytes;
+    damage.push_back(found);
+  }
+  size_bytes += next.size_bytes;
 }
 
 LogIndex indexLog(std::istream& log, std::size_t window_bytes) {

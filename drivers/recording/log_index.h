@@ -39,8 +39,11 @@ struct LogDamage {
 struct LogIndex {
   std::vector<LogEvent> events;       ///< in the order of the file
   std::vector<std::string> channels;  ///< in order of first appearance
-  std::vector<LogDamage> damage;      ///< by increasing offset; spans do not touch
+  std::vector<LogDamage> damage;      ///< by increasing offset; spans touch only where files do
   std::uint64_t size_bytes = 0;       ///< of the log: events and damage cover it
+
+  /// As if the file of `next` stood behind this one in one file.
+  void append(LogIndex next);
 };
 
 /// Fewest bytes of a log to be held in memory at a time: a header with the longest channel name.

@@ -36,6 +36,10 @@ void LogWriter::writeEncoded(const std::string& channel, Time log_stamp, Bytes m
   if (file_->writeEvent(&event) != 0) failWriting();
 }
 
+void LogWriter::flush() {
+  if (!file_ || std::fflush(file_->getFilePtr()) != 0) failWriting();
+}
+
 void LogWriter::close() {
   if (!file_) return;
   const bool flushed = std::fflush(file_->getFilePtr()) == 0;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "core/time.h"
 #include "drivers/lcm/byte_cursor.h"
+#include "drivers/lcm/encode.h"
 #include "drivers/recording/log_error.h"
 
 namespace lcm {
@@ -35,16 +35,18 @@ class LogWriter {
   ///         the disk is full. Events are buffered: a full disk may show only in a later call.
   template <class Message>
   void write(const std::string& channel, Time log_stamp, const Message& message) {
-    const int size = message.getEncodedSize();
-    encoded_.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-    if (message.encode(encoded_.data(), 0, size) != size) refuse(channel, "is too large for LCM");
+    if (!encodeInto(message, encoded_)) refuse(channel, "is too large for LCM");
     writeEncoded(channel, log_stamp, encoded_);
   }
 
   /// The same for a message that is encoded already.
   void writeEncoded(const std::string& channel, Time log_stamp, Bytes message);
 
-  /// Hands everything to the operating system. @throws LogError if that fails: the log is not whole
+  /// Hands everything so far to the operating system: it outlives this process, however that ends.
+  /// @throws LogError if that fails, or the log is closed
+  void flush();
+
+  /// Flushes and ends the log. @throws LogError if that fails: the log is not whole
   void close();
 
  private:

@@ -65,6 +65,36 @@ TEST(LogReader, MergedByTimeIsStable) {
   EXPECT_THAT(order, ElementsAre("earliest", "first", "second", "late"));
 }
 
+TEST(LogReader, PartsAreOneLog) {
+  const TemporaryFile first, empty, second, cut;
+  first.write(event(30, "A", "one") + "damage");
+  empty.write("");
+  second.write("garbage" + event(20, "B", "two") + event(10, "A", "three"));
+  cut.write("cut");
+  LogReader log(std::vector{first.path(), empty.path(), second.path(), cut.path()});
+  ASSERT_EQ(log.events().size(), 3U);
+  EXPECT_EQ(textOf(log, log.events()[1]), "two");
+  EXPECT_EQ(textOf(log, log.events()[0]), "one");
+  EXPECT_EQ(textOf(log, log.events()[2]), "three");
+  EXPECT_EQ(log.channelOf(log.events()[1]), "B");
+  EXPECT_EQ(log.channelOf(log.events()[2]), "A");
+  EXPECT_THAT(log.index().channels, ElementsAre("A", "B"));
+  EXPECT_EQ(textOf(log, log.mergedByTime().front()), "three");
+  ASSERT_EQ(log.damage().size(), 3U);
+  EXPECT_EQ(log.damage()[1].offset_bytes, log.damage()[0].offset_bytes + 6);
+  EXPECT_EQ(log.damagedBytes(), 6U + 7U + 3U);
+}
+
+TEST(LogReader, PartThatIsMissingIsNamed) {
+  const TemporaryFile first, second;
+  first.write(event(30, "A", "one"));
+  EXPECT_THAT(
+      [&] {
+        LogReader(std::vector{first.path(), second.path()});
+      },
+      ThrowsMessage<LogError>(HasSubstr(second.path().string())));
+}
+
 TEST(LogReader, FileThatShrankIsNamed) {
   const TemporaryFile file;
   const std::string first = event(1, "A", "one");

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "png_files.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nanomap {
 namespace {

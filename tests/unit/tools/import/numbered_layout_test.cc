@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nanomap {
 namespace {

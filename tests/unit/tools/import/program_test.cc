@@ -12,7 +12,7 @@
 #include "drivers/lcm/decode.h"
 #include "drivers/recording/log_reader.h"
 #include "png_files.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nanomap {
 namespace {
