@@ -118,8 +118,14 @@ struct BodyMotion {
 
 [[nodiscard]] trajectory_t toMessage(const Trajectory& trajectory);
 
-/// @param sequence  the planner's own count of its decisions
-[[nodiscard]] decision_t toMessage(const Decision& decision, std::uint64_t sequence);
+/// A decision's place among others.
+struct DecisionPlace {
+  std::uint64_t sequence = 0;  ///< the planner's own count of its decisions
+  std::uint64_t step = 0;      ///< number of the last step_t before it; 0: steps are not counted
+  bool flown = true;           ///< false: the vehicle was in other hands, the plan started from what was measured
+};
+
+[[nodiscard]] decision_t toMessage(const Decision& decision, const DecisionPlace& place);
 
 /// As pod-style robots publish poses. Epoch, sequence number and increment have no place in it, and its motion is NaN:
 /// publishers disagree on the frame of those fields.

@@ -37,10 +37,12 @@ trajectory_t toMessage(const Trajectory& trajectory) {
   return message;
 }
 
-decision_t toMessage(const Decision& decision, std::uint64_t sequence) {
+decision_t toMessage(const Decision& decision, const DecisionPlace& place) {
   decision_t message{};
   message.utime = utimeFromTime(decision.stamp);
-  message.sequence = static_cast<std::int64_t>(sequence);
+  message.sequence = static_cast<std::int64_t>(place.sequence);
+  message.step = static_cast<std::int64_t>(place.step);
+  message.flown = place.flown ? 1 : 0;
 
   const Consumed& consumed = decision.consumed;
   message.state_sequence = static_cast<std::int64_t>(consumed.state_sequence);

@@ -159,7 +159,8 @@ void walk(FieldWalker& fields, Type<trajectory_t>) {
 }
 
 void walk(FieldWalker& fields, Type<decision_t>) {
-  fields.fixed<std::int64_t, std::int64_t, std::int64_t, std::int64_t, std::int32_t, std::int32_t>();
+  fields.fixed<std::int64_t, std::int64_t, std::int64_t, Boolean>();
+  fields.fixed<std::int64_t, std::int64_t, std::int32_t, std::int32_t>();
   fields.fixed<Boolean, std::int64_t, Boolean, std::int64_t, Boolean, std::int64_t>();
   fields.string();
   fields.fixed<Boolean, std::int32_t>();
@@ -194,12 +195,33 @@ void walk(FieldWalker& fields, Type<health_t>) {
   walkArray<counter_t>(fields, fields.count(kMinCounterBytes));
 }
 
+void walk(FieldWalker& fields, Type<lost_t>) {
+  fields.fixed<std::int64_t>();
+  fields.string();
+  fields.fixed<std::int64_t, std::int64_t>();
+}
+
 void walk(FieldWalker& fields, Type<pose_correction_t>) {
   fields.fixed<std::int64_t, std::int64_t, std::int32_t>();
   fields.array(kStampedTransformBytes);
 }
 
+void walk(FieldWalker& fields, Type<setpoint_t>) {
+  fields.fixed<std::int64_t>();
+  fields.string();
+  fields.fixed<Boolean, std::int64_t, Boolean, Doubles<9>, Boolean, double>();
+}
+
 void walk(FieldWalker& fields, Type<stamped_transform_t>) { fields.fixed<std::int64_t, Transform>(); }
+
+void walk(FieldWalker& fields, Type<step_t>) {
+  fields.fixed<std::int64_t, std::int64_t, std::int8_t, std::int64_t, std::int64_t>();
+}
+
+void walk(FieldWalker& fields, Type<text_t>) {
+  fields.fixed<std::int64_t>();
+  fields.string();
+}
 
 void walk(FieldWalker& fields, Type<transform_t>) { fields.fixed<Transform>(); }
 

@@ -17,8 +17,12 @@
 #include "nanomap/goal_t.hpp"
 #include "nanomap/health_t.hpp"
 #include "nanomap/latency_t.hpp"
+#include "nanomap/lost_t.hpp"
 #include "nanomap/pose_correction_t.hpp"
+#include "nanomap/setpoint_t.hpp"
 #include "nanomap/stamped_transform_t.hpp"
+#include "nanomap/step_t.hpp"
+#include "nanomap/text_t.hpp"
 #include "nanomap/trajectory_t.hpp"
 #include "nanomap/transform_t.hpp"
 
@@ -41,7 +45,11 @@
   APPLY(nanomap::goal_t)                     \
   APPLY(nanomap::health_t)                   \
   APPLY(nanomap::latency_t)                  \
+  APPLY(nanomap::lost_t)                     \
   APPLY(nanomap::pose_correction_t)          \
+  APPLY(nanomap::setpoint_t)                 \
   APPLY(nanomap::stamped_transform_t)        \
+  APPLY(nanomap::step_t)                     \
+  APPLY(nanomap::text_t)                     \
   APPLY(nanomap::trajectory_t)               \
   APPLY(nanomap::transform_t)

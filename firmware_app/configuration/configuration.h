@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/camera_model.h"
 #include "core/chain.h"
@@ -23,6 +24,9 @@ enum class ClockDomain : std::uint8_t {
   kRealtime,   ///< this machine's CLOCK_REALTIME: the time of day
   kLog,        ///< a recording's: its first stamp is now
 };
+/// Where a recording holds the configuration that it was flown with, as nanomap.text_t: the one channel that is the
+/// same everywhere, because a replay reads it before it knows the names of the others.
+inline constexpr std::string_view kConfigurationChannel = "NANOMAP_CONFIG";
 
 /// Names and habits of the LCM network, live or in a log.
 struct LcmParameters {
@@ -35,7 +39,11 @@ struct LcmParameters {
   std::string goal_channel = "GOAL";
   std::string answers_channel = "NANOMAP_ANSWERS";
   std::string decisions_channel = "NANOMAP_DECISIONS";
+  std::string steps_channel = "NANOMAP_STEPS";
+  std::string setpoints_channel = "NANOMAP_SETPOINTS";
+  std::string state_channel = "NANOMAP_STATE";
   std::string health_channel = "NANOMAP_HEALTH";
+  std::string lost_channel = "NANOMAP_LOST";
   BodyConvention pose_t_body = BodyConvention::kFlu;  ///< of bot_core.pose_t, which does not say
   double max_body_speed_m_s = 30.0;                   ///< a faster step of the poses is a jump of their world; 0: never
 };

@@ -132,9 +132,10 @@ class Reader {
   /// A message is told by its channel first.
   void checkChannels() {
     const LcmParameters& lcm = configuration_.lcm;
-    const std::array<std::string_view, 8> channels = {lcm.depth_channel,     lcm.pose_channel,  lcm.correction_channel,
-                                                      lcm.camera_channel,    lcm.goal_channel,  lcm.answers_channel,
-                                                      lcm.decisions_channel, lcm.health_channel};
+    const std::array<std::string_view, 13> channels = {
+        lcm.depth_channel,   lcm.pose_channel,      lcm.correction_channel, lcm.camera_channel,    lcm.goal_channel,
+        lcm.answers_channel, lcm.decisions_channel, lcm.steps_channel,      lcm.setpoints_channel, lcm.state_channel,
+        lcm.health_channel,  lcm.lost_channel,      kConfigurationChannel};
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
       if (std::find(channels.begin(), channel, *channel) != channel) {
         faults_.push_back(fmt::format("[lcm]: two channels are named '{}': each needs a name of its own", *channel));

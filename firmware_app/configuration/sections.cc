@@ -135,8 +135,20 @@ Section lcmSection() {
            "decisions_channel", "What the planner decided: nanomap.decision_t.", kChannelName,
            [](auto& c) -> auto& { return c.lcm.decisions_channel; }),
        textKey(
+           "steps_channel", "What the chain took in, in which order, as a recording holds it: nanomap.step_t.",
+           kChannelName, [](auto& c) -> auto& { return c.lcm.steps_channel; }),
+       textKey(
+           "setpoints_channel", "What the autopilot was told: nanomap.setpoint_t.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.setpoints_channel; }),
+       textKey(
+           "state_channel", "Changes of the flight process's state, in words: nanomap.text_t.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.state_channel; }),
+       textKey(
            "health_channel", "How the flight process is, once a second: nanomap.health_t.", kChannelName,
            [](auto& c) -> auto& { return c.lcm.health_channel; }),
+       textKey(
+           "lost_channel", "What a recording lacks: nanomap.lost_t.", kChannelName,
+           [](auto& c) -> auto& { return c.lcm.lost_channel; }),
        choiceKey<BodyConvention>(
            "pose_t_body",
            "Body axes of bot_core.pose_t, which does not say: flu (forward, left, up) or frd\n"

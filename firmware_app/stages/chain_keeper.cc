@@ -38,7 +38,7 @@ void ChainKeeper::take(IndexedFrame& arrived, Time now) {
 
 void ChainKeeper::noteStep(InputKind kind, Time arrival, Duration stamp_shift, Time now) {
   ++steps_;
-  ports_.steps.push([&](ChainStep& slot) { slot = {now, steps_, kind, arrival, stamp_shift}; });
+  ports_.steps.push([&](Step& slot) { slot = {now, steps_, kind, arrival, stamp_shift}; });
 }
 
 void ChainKeeper::report() {

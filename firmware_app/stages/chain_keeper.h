@@ -7,6 +7,7 @@
 #include "firmware_app/handover/mailbox.h"
 #include "firmware_app/handover/slot_queue.h"
 #include "firmware_app/pipeline/chain_stage.h"
+#include "firmware_app/pipeline/step.h"
 #include "firmware_app/safety/commander.h"
 #include "firmware_app/stages/handed_over.h"
 
@@ -20,7 +21,7 @@ struct ChainPorts {
   Mailbox<ChainSnapshot>& newest;     ///< with the newest view only, for what the autopilot is told of obstacles
   Mailbox<PlanningMoment>& moments;   ///< for the planner,
   Doorbell& planner_bell;             ///< which is rung
-  SlotQueue<ChainStep>& steps;        ///< for the recorder
+  SlotQueue<Step>& steps;             ///< for the recorder
   Mailbox<ChainCounters>& counters;
 };
 

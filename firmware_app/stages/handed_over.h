@@ -53,15 +53,6 @@ struct PlanningMoment {
   Time newest_view{};      ///< exposure, for latencies
 };
 
-/// That the chain has taken in one thing. Steps are numbered from 1 on.
-struct ChainStep {
-  Time stamp{};
-  std::uint64_t number = 0;
-  InputKind kind = InputKind::kPose;
-  Time arrival{};
-  Duration stamp_shift{};
-};
-
 /// A decision as it was made.
 struct MadeDecision {
   Decision decision;

@@ -8,8 +8,8 @@
 #include "firmware_app/handover/mailbox.h"
 #include "firmware_app/handover/slot_queue.h"
 #include "firmware_app/pipeline/message_intake.h"
+#include "firmware_app/pipeline/stamp_clock.h"
 #include "firmware_app/stages/handed_over.h"
-#include "firmware_app/stages/stamp_clock.h"
 
 namespace nanomap {
 

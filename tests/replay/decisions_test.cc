@@ -31,7 +31,7 @@ Configuration configuration() {
 
 std::vector<decision_t> decided(const std::filesystem::path& flight, const std::string& name,
                                 const Configuration& changed = configuration(), const ReplayOptions& options = {}) {
-  return readDecisions(decisionsOf(flight, name, changed, options));
+  return readDecisions({decisionsOf(flight, name, changed, options)});
 }
 
 TEST(ReplayDecisions, OneIsMadeForEveryFrame) {
@@ -121,7 +121,7 @@ TEST(ReplayDecisions, SummaryCountsThem) {
 TEST(ReadDecisions, LogWithoutOneIsNamed) {
   const auto flight = goalFlight();
   try {
-    (void)readDecisions(flight);
+    (void)readDecisions({flight});
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr(flight.string()));

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "firmware_app/configuration/document.h"
+#include "tests/replay/flown_recording.h"
 #include "tests/replay/replaying.h"
 
 namespace nanomap::test {
@@ -75,6 +76,26 @@ TEST(ReplayProgram, DecidesComparesAndExplains) {
   EXPECT_THAT(runReplay(log + "--why 0.3").out, HasSubstr("plan made 0.300 s into the log"));
   EXPECT_THAT(runReplay(log + "--why 0.3 --candidate 62").out, HasSubstr("motion of candidate 62"));
   EXPECT_EQ(runReplay(log + "--why 9").exit_code, 1);
+}
+
+TEST(ReplayProgram, RecordedFlightIsReplayedToItsOwnDecisions) {
+  const auto folder = testFile("recordings");
+  std::filesystem::remove_all(folder);
+  const RotationLimits limits{.segment_bytes = 200'000, .total_bytes = 10'000'000};
+  writeSegments(flownRecording(FlightMessages::kPlain, 7).events, folder, limits);
+  writeSegments(flownRecording(FlightMessages::kPlain).events, folder, limits);
+  const std::string recordings = "'" + folder.string() + "' ";
+  const std::string out = "'" + testFile("decisions").string() + "' ";
+  const Ended run = runReplay(recordings + "--decisions " + out);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("configuration: as recorded in the log\n"), HasSubstr("nothing is missing")));
+  const Ended diff = runReplay("--diff " + recordings + out);
+  EXPECT_EQ(diff.exit_code, 0) << diff.out << diff.err;
+  EXPECT_THAT(diff.out, HasSubstr("all are the same"));
+
+  const Ended other = runReplay(recordings + "--set planner.stop_check=paper --decisions " + out);
+  EXPECT_THAT(other.out, HasSubstr("configuration: as recorded in the log, with 1 set otherwise\n"));
+  EXPECT_EQ(runReplay("--diff " + recordings + out).exit_code, 1);
 }
 
 TEST(ReplayProgram, TwoOutputsNeedTwoFiles) {

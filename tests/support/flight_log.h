@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -19,8 +20,9 @@ namespace nanomap::test {
 /// A path of its own for each test.
 inline std::filesystem::path testFile(const std::string& name) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  return std::filesystem::path(::testing::TempDir()) /
-         (std::string(test->test_suite_name()) + "." + test->name() + "." + name);
+  std::string unique = std::string(test->test_suite_name()) + "." + test->name() + "." + name;
+  std::replace(unique.begin(), unique.end(), '/', '.');  // of tests with parameters
+  return std::filesystem::path(::testing::TempDir()) / unique;
 }
 
 inline Time atMs(std::int64_t ms) { return Time(std::chrono::milliseconds(ms)); }

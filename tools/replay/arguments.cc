@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <algorithm>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -27,7 +27,7 @@ void requireInRange(const std::string& option, double value, double min, double 
   require(value >= min && value <= max, fmt::format("{} {}: must be in {} .. {}", option, value, min, max));
 }
 
-bool isSameFile(const std::string& a, const std::string& b) {
+bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code no_such_file;
   return std::filesystem::equivalent(a, b, no_such_file) ||
          std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal();
@@ -36,10 +36,13 @@ bool isSameFile(const std::string& a, const std::string& b) {
 }  // namespace
 
 void declare(CLI::App& app, ReplayArguments& arguments) {
-  auto* log = app.add_option("LOG", arguments.log, "LCM log of depth frames, poses, corrections and goals");
+  auto* log = app.add_option("LOG", arguments.logs,
+                             "LCM log of depth frames, poses, corrections and goals; several are the parts of one\n"
+                             "recording, and a folder of recordings is its latest flight");
   auto* out = app.add_option("--out", arguments.out, "LCM log of answers to write");
   auto* decisions = app.add_option("--decisions", arguments.decisions, "LCM log of decisions to write");
-  app.add_option("--config", arguments.config, "configuration file (TOML); without it, defaults");
+  app.add_option("--config", arguments.config,
+                 "configuration file (TOML); without it, the one in the log, or defaults");
   app.add_option("--set", arguments.overrides, "section.key=value: wins over the file; may be repeated")
       ->allow_extra_args(false);
   app.add_option("--goal", arguments.goal_W_m, "x,y,z [m] in the estimator's world: fly there, not to the log's goal")
@@ -58,7 +61,7 @@ void declare(CLI::App& app, ReplayArguments& arguments) {
   app.add_option("--candidate", arguments.candidate, "with --why: show this candidate's samples, not the chosen one's")
       ->needs(why);
   app.add_option("--diff", arguments.diff,
-                 "compare two logs of decisions: where they part, and why; exit code 0 if they agree, 1 if not,\n"
+                 "compare the decisions of two logs: where they part, and why; exit code 0 if they agree, 1 if not,\n"
                  "2 if they cannot be read")
       ->expected(2)
       ->excludes(log, out, decisions, why);
@@ -88,11 +91,13 @@ ReplayOptions optionsFrom(const ReplayArguments& arguments) {
   return options;
 }
 
-void checkOutputs(const ReplayArguments& arguments) {
+void checkOutputs(const ReplayArguments& arguments, const std::vector<std::filesystem::path>& logs) {
   for (const auto& [option, path] :
        {std::pair("--out", arguments.out), std::pair("--decisions", arguments.decisions)}) {
-    require(path.empty() || !isSameFile(arguments.log, path),
-            fmt::format("{} {} is the log itself: name another file", option, path));
+    const auto& output = path;
+    const bool is_log = !output.empty() && std::any_of(logs.begin(), logs.end(),
+                                                       [&output](const auto& log) { return isSameFile(log, output); });
+    require(!is_log, fmt::format("{} {} is the log itself: name another file", option, path));
   }
   require(arguments.out.empty() || arguments.decisions.empty() || !isSameFile(arguments.out, arguments.decisions),
           fmt::format("--out and --decisions are both {}: name two files", arguments.out));

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ namespace nanomap {
 
 /// What nanomap-replay is told on its command line.
 struct ReplayArguments {
-  std::string log;
+  std::vector<std::string> logs;
   std::string out;
   std::string decisions;
   std::string config;
@@ -34,7 +35,8 @@ void declare(CLI::App& app, ReplayArguments& arguments);
 /// @throws std::runtime_error naming the option that is out of its range
 [[nodiscard]] ReplayOptions optionsFrom(const ReplayArguments& arguments);
 
-/// @throws std::runtime_error if a log to be written is the one to be read, or the other one
-void checkOutputs(const ReplayArguments& arguments);
+/// @param logs  to be read
+/// @throws std::runtime_error if a log to be written is one of those, or the other one
+void checkOutputs(const ReplayArguments& arguments, const std::vector<std::filesystem::path>& logs);
 
 }  // namespace nanomap

@@ -46,6 +46,8 @@ std::string trajectoryText(const trajectory_t& trajectory) {
 std::vector<Field> makeFields() {
   using D = decision_t;
   std::vector<Field> fields = {
+      field("step", &D::step, true),
+      field("flown", &D::flown, true),
       field("state_sequence", &D::state_sequence, true),
       field("pose_sequence", &D::pose_sequence, true),
       field("epoch", &D::epoch, true),

@@ -10,8 +10,9 @@
 
 namespace nanomap {
 
-std::vector<decision_t> readDecisions(const std::filesystem::path& path) {
-  LogReader log(path);
+std::vector<decision_t> readDecisions(const std::vector<std::filesystem::path>& parts) {
+  LogReader log(parts);
+  const std::string name = parts.front().string();
   std::vector<decision_t> decisions;
   std::vector<std::uint8_t> message;
   for (const LogEvent& event : log.events()) {
@@ -19,13 +20,13 @@ std::vector<decision_t> readDecisions(const std::filesystem::path& path) {
     if (messageHash(message) != decision_t::getHash()) continue;
     Decoded<decision_t> decoded = decode<decision_t>(message);
     if (const auto* fault = std::get_if<DecodeFault>(&decoded)) {
-      throw std::runtime_error(fmt::format("{}: decision {} is damaged ({}): write the log anew", path.string(),
-                                           decisions.size(), toString(*fault)));
+      throw std::runtime_error(
+          fmt::format("{}: decision {} is damaged ({}): write the log anew", name, decisions.size(), toString(*fault)));
     }
     decisions.push_back(std::get<decision_t>(std::move(decoded)));
   }
   if (decisions.empty()) {
-    throw std::runtime_error(path.string() + ": holds no decision: nanomap-replay --decisions writes such a log");
+    throw std::runtime_error(name + ": holds no decision: nanomap-replay --decisions writes such a log");
   }
   return decisions;
 }

@@ -2,15 +2,19 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "firmware_app/configuration/document.h"
 #include "firmware_app/configuration/load.h"
 #include "tools/replay/arguments.h"
 #include "tools/replay/decision_diff.h"
 #include "tools/replay/decision_log.h"
+#include "tools/replay/log_files.h"
+#include "tools/replay/recorded_configuration.h"
 #include "tools/replay/summary.h"
 #include "tools/replay/warnings.h"
 #include "tools/replay/why.h"
@@ -22,7 +26,6 @@ constexpr int kNotCompared = 2;  ///< as diff(1) has it: 1 is a difference
 
 void runReplay(const nanomap::ReplayArguments& arguments, const nanomap::Configuration& configuration,
                nanomap::LogReader& log) {
-  checkOutputs(arguments);
   std::optional<nanomap::LogWriter> answers;
   std::optional<nanomap::LogWriter> decisions;
   if (!arguments.out.empty()) answers.emplace(arguments.out);
@@ -37,10 +40,24 @@ void runReplay(const nanomap::ReplayArguments& arguments, const nanomap::Configu
 }
 
 int runDiff(const nanomap::ReplayArguments& arguments) {
-  const auto diff =
-      nanomap::compareDecisions(nanomap::readDecisions(arguments.diff[0]), nanomap::readDecisions(arguments.diff[1]));
+  const auto decisions = [&](std::size_t i) { return nanomap::readDecisions(nanomap::logFiles({arguments.diff[i]})); };
+  const auto diff = nanomap::compareDecisions(decisions(0), decisions(1));
   fmt::print("{}", toText(diff));
   return diff.same() ? 0 : 1;
+}
+
+void runOnLog(const nanomap::ReplayArguments& arguments) {
+  const std::vector<std::filesystem::path> files = nanomap::logFiles(arguments.logs);
+  checkOutputs(arguments, files);
+  nanomap::LogReader log(files);
+  const auto [configuration, origin] = nanomap::chooseConfiguration(log, arguments.config, arguments.overrides);
+  fmt::print("configuration: {}\n", origin);
+  if (arguments.why_s) {
+    const nanomap::WhyQuestion question{nanomap::fromSeconds(*arguments.why_s), arguments.candidate};
+    fmt::print("{}", nanomap::why(log, configuration, optionsFrom(arguments), question));
+  } else {
+    runReplay(arguments, configuration, log);
+  }
 }
 
 /// @return the exit code
@@ -50,19 +67,12 @@ int run(const nanomap::ReplayArguments& arguments) {
     return 0;
   }
   if (!arguments.diff.empty()) return runDiff(arguments);
-  const nanomap::Configuration configuration = nanomap::loadConfiguration(arguments.config, arguments.overrides);
   if (arguments.check_config) {
-    fmt::print("{}", nanomap::annotatedToml(configuration));
+    fmt::print("{}", nanomap::annotatedToml(nanomap::loadConfiguration(arguments.config, arguments.overrides)));
     return 0;
   }
-  if (arguments.log.empty()) throw std::runtime_error("no log given: nanomap-replay LOG (--help lists the options)");
-  nanomap::LogReader log(arguments.log);
-  if (arguments.why_s) {
-    const nanomap::WhyQuestion question{nanomap::fromSeconds(*arguments.why_s), arguments.candidate};
-    fmt::print("{}", nanomap::why(log, configuration, optionsFrom(arguments), question));
-  } else {
-    runReplay(arguments, configuration, log);
-  }
+  if (arguments.logs.empty()) throw std::runtime_error("no log given: nanomap-replay LOG (--help lists the options)");
+  runOnLog(arguments);
   return 0;
 }
 

@@ -4,9 +4,11 @@
 
 namespace nanomap {
 
-void takeMoment(const Pipeline& pipeline, const std::optional<Goal>& other_goal, Moment& moment) {
+void takeMoment(const Pipeline& pipeline, std::optional<Time> now, const std::optional<Goal>& other_goal,
+                Moment& moment) {
   assert(pipeline.state());
   pipeline.chain().snapshotInto(moment.snapshot);
+  moment.now = now.value_or(moment.snapshot.stamp);
   moment.state = *pipeline.state();
   moment.goal = other_goal ? other_goal : pipeline.goal();
   if (other_goal) moment.goal->epoch = moment.state.epoch;

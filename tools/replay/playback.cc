@@ -1,13 +1,13 @@
 #include "tools/replay/playback.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
+
+#include "tools/replay/arrival_playback.h"
+#include "tools/replay/step_playback.h"
 
 namespace nanomap {
-namespace {
-
-bool holdsFromThenOn(InputKind kind) { return kind == InputKind::kCamera || kind == InputKind::kGoal; }
-
-}  // namespace
 
 Playback::Playback(LogReader& log, const Configuration& configuration, const LogSpan& span)
     : log_(log), pipeline_(configuration), events_(log.mergedByTime()) {
@@ -15,25 +15,24 @@ Playback::Playback(LogReader& log, const Configuration& configuration, const Log
     throw std::runtime_error("the log holds no event: was anything published while it was recorded?");
   log_start_ = events_.front().log_stamp;
   log_end_ = events_.back().log_stamp;
+  from_ = log_start_ + span.from;
   if (span.to) to_ = log_start_ + *span.to;
-  const Time from = log_start_ + span.from;
-  std::erase_if(events_, [&](const LogEvent& event) {
-    const auto kind = pipeline_.kindOf(log_.channelOf(event));
-    return !kind || (event.log_stamp < from && !holdsFromThenOn(*kind));
-  });
+  std::erase_if(events_, [this](const LogEvent& event) { return !pipeline_.kindOf(log_.channelOf(event)); });
 }
 
-std::optional<Time> Playback::nextStamp() const {
-  if (next_ == events_.size()) return std::nullopt;
-  const Time stamp = events_[next_].log_stamp;
-  if (to_ && stamp > *to_) return std::nullopt;
-  return stamp;
-}
-
-Playback::Step Playback::step() {
-  const LogEvent& event = events_[next_++];
+Bytes Playback::read(const LogEvent& event) {
   log_.read(event, message_);
-  return {event.log_stamp, pipeline_.feed(*pipeline_.kindOf(log_.channelOf(event)), message_)};
+  return message_;
+}
+
+bool Playback::isHeld(InputKind kind) {
+  return std::find(kHeldKinds.begin(), kHeldKinds.end(), kind) != kHeldKinds.end();
+}
+
+std::unique_ptr<Playback> makePlayback(LogReader& log, const Configuration& configuration, const LogSpan& span) {
+  FlightScript script = readFlightScript(log, configuration.lcm);
+  if (script.steps.empty()) return std::make_unique<ArrivalPlayback>(log, configuration, span);
+  return std::make_unique<StepPlayback>(log, configuration, span, std::move(script));
 }
 
 }  // namespace nanomap

@@ -72,11 +72,12 @@ class Decider {
   Decider(const Configuration& configuration, LogWriter* log, ReplayReport& report)
       : horizon_(configuration.planner), channel_(configuration.lcm.decisions_channel), log_(log), report_(report) {}
 
-  void decide(const Moment& moment, Time log_stamp) {
+  void decide(const Moment& moment, const PlanPoint& plan) {
     const Clock::time_point start = Clock::now();
-    const Decision decision = horizon_.step(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp);
+    if (!plan.place.flown) horizon_.release();
+    const Decision decision = horizon_.step(moment.snapshot, moment.state, moment.goal, moment.now);
     report_.plan_times.push_back(Clock::now() - start);
-    if (log_ != nullptr) log_->write(channel_, log_stamp, toMessage(decision, report_.plans.total()));
+    if (log_ != nullptr) log_->write(channel_, plan.log_stamp, toMessage(decision, plan.place));
     report_.plans.record(decision);
   }
 
@@ -91,30 +92,35 @@ class Decider {
 
 ReplayReport replay(LogReader& log, const Configuration& configuration, const ReplayOptions& options,
                     const ReplayOutputs& outputs) {
-  Playback playback(log, configuration, options.span);
+  const auto playback = makePlayback(log, configuration, options.span);
   ReplayReport report(configuration.chain.history_views);
-  report.log_span = playback.logEnd() - playback.logStart();
+  report.log_start = playback->logStart();
+  report.log_span = playback->logEnd() - playback->logStart();
   report.damage = log.damage();
   for (const LogEvent& event : log.events()) ++report.events_by_channel[log.channelOf(event)];
 
-  const Pipeline& pipeline = playback.pipeline();
-  const FlownPath flown_path(log, playback.events(), configuration);
+  const Pipeline& pipeline = playback->pipeline();
+  const FlownPath flown_path(log, playback->events(), configuration);
   Answerer answerer(configuration, options, flown_path, outputs.answers, report);
   Decider decider(configuration, outputs.decisions, report);
-  const Pacer pacer(options.rate, playback.logStart() + options.span.from);
+  const Pacer pacer(options.rate, playback->logStart() + options.span.from);
   Moment moment;
-  while (const auto next_stamp = playback.nextStamp()) {
+  while (const auto next_stamp = playback->nextStamp()) {
     pacer.waitFor(*next_stamp);
-    const auto [log_stamp, outcome] = playback.step();
+    const auto [log_stamp, outcome, plans] = playback->advance();
     if (outcome.build_time) report.build_times.push_back(*outcome.build_time);
-    if (outcome.camera == CameraVerdict::kChanged) report.camera_changes.push_back(log_stamp - playback.logStart());
+    if (outcome.camera == CameraVerdict::kChanged) report.camera_changes.push_back(log_stamp - playback->logStart());
     if (outcome.views_inserted > 0) {
-      takeMoment(pipeline, options.goal, moment);
+      takeMoment(pipeline, std::nullopt, options.goal, moment);
       answerer.answer(moment.snapshot, pipeline.viewBuilder().camera()->frustum().far_m, log_stamp);
-      decider.decide(moment, log_stamp);
+    }
+    for (const PlanPoint& plan : plans) {
+      takeMoment(pipeline, plan.now, options.goal, moment);
+      decider.decide(moment, plan);
     }
   }
 
+  report.steps = playback->stepReport();
   report.pipeline = pipeline.counters();
   report.chain = pipeline.chain().counters();
   report.views_waiting = pipeline.chain().waitingCount();

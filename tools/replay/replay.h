@@ -40,7 +40,9 @@ struct ReplayReport {
 
   std::map<std::string, std::uint64_t> events_by_channel;  ///< in the whole log
   std::vector<LogDamage> damage;
-  Duration log_span{};  ///< between the log's first and last event
+  Time log_start{};                 ///< of the log's first event
+  Duration log_span{};              ///< between the log's first and last event
+  std::optional<StepReport> steps;  ///< if the log is a recorded flight
   PipelineCounters pipeline;
   ChainCounters chain;
   std::size_t views_waiting = 0;      ///< still without a pose at the end
@@ -58,9 +60,10 @@ struct ReplayReport {
 };
 
 /// Runs the log through a pipeline and the planner on this thread. Whenever a view enters the chain, the fan of motions
-/// and the flight's own next seconds are answered and a plan is made, each for the snapshot's stamp.
+/// and the flight's own next seconds are answered and a plan is made, each for the snapshot's stamp. A recording of the
+/// flight process is taken in and planned for in the order and at the times that it holds instead (StepPlayback).
 /// Answers and decisions are a function of the log, the configuration and the options: they hold no measured time, and
-/// carry the log time of the event that made them.
+/// carry the log time of the event that made them, or of the recorded decision.
 /// @throws std::runtime_error if the log holds no event; std::invalid_argument for a configuration that cannot be;
 ///         LogError if a log cannot be read or written
 [[nodiscard]] ReplayReport replay(LogReader& log, const Configuration& configuration, const ReplayOptions& options,

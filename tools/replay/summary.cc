@@ -19,6 +19,9 @@ constexpr std::size_t kRecentViews = 40;
 constexpr std::array<std::size_t, 9> kDepthRows = {0, 1, 2, 5, 10, 20, 40, 80, 160};
 constexpr double kBarWidth = 40.0;
 
+/// Of a recording: enough to see what happened.
+constexpr std::size_t kShownLosses = 10;
+
 void writeLog(Text& text, const ReplayReport& report) {
   std::uint64_t events = 0;
   for (const auto& [channel, count] : report.events_by_channel) events += count;
@@ -26,6 +29,21 @@ void writeLog(Text& text, const ReplayReport& report) {
   for (const auto& [channel, count] : report.events_by_channel) text.line("    {:>8}  {}", count, channel);
   for (const LogDamage& damage : report.damage) {
     text.line("  damaged: {} bytes from offset {}: {}", damage.size_bytes, damage.offset_bytes, toString(damage.cause));
+  }
+}
+
+void writeSteps(Text& text, const ReplayReport& report) {
+  if (!report.steps) return;
+  const StepReport& steps = *report.steps;
+  text.line("order: {} steps, as the flight took things in; {}", steps.taken,
+            steps.losses.empty() ? "nothing is missing" : fmt::format("{} losses", steps.losses.size()));
+  for (std::size_t i = 0; i < std::min(steps.losses.size(), kShownLosses); ++i) {
+    text.line("  after {:.3f} s: {}", toSeconds(steps.losses[i].at - report.log_start), steps.losses[i].what);
+  }
+  if (steps.losses.size() > kShownLosses) text.line("  and {} more", steps.losses.size() - kShownLosses);
+  for (std::size_t i = 0; i < kInputKindCount; ++i) {
+    if (steps.not_taken[i] == 0) continue;
+    text.line("  {} {} arrived and were not taken in", steps.not_taken[i], toString(static_cast<InputKind>(i)));
   }
 }
 
@@ -120,6 +138,7 @@ void writeLatencies(Text& text, const ReplayReport& report) {
 std::string summaryOf(const ReplayReport& report, const Configuration& configuration) {
   Text text;
   writeLog(text, report);
+  writeSteps(text, report);
   writeInputs(text, report);
   writeStatuses(text, report);
   writeHistory(text, report);

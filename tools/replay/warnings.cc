@@ -132,6 +132,11 @@ std::vector<std::string> warningsOf(const ReplayReport& report, const Configurat
     warnings.push_back(
         fmt::format("the log is damaged in {} places; {} bytes were skipped", report.damage.size(), bytes));
   }
+  if (report.steps && !report.steps->losses.empty()) {
+    warnings.push_back(
+        fmt::format("from {:.3f} s on decisions may not be those of the flight: the recording has losses",
+                    toSeconds(report.steps->losses.front().at - report.log_start)));
+  }
   for (const InputKind kind : kNeeded) {
     if (of(report.pipeline.messages, kind) == 0) warnings.push_back(nothingFound(report, configuration, kind));
   }

@@ -18,15 +18,16 @@ namespace {
 Time runToPlan(Playback& playback, const std::optional<Goal>& other_goal, Time at, RecedingHorizon& horizon,
                Moment& moment) {
   while (playback.nextStamp()) {
-    const Playback::Step step = playback.step();
-    if (step.outcome.views_inserted == 0) continue;
-    takeMoment(playback.pipeline(), other_goal, moment);
-    if (step.log_stamp >= at) return step.log_stamp;
-    (void)horizon.step(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp);
+    for (const PlanPoint& plan : playback.advance().plans) {
+      takeMoment(playback.pipeline(), plan.now, other_goal, moment);
+      if (!plan.place.flown) horizon.release();
+      if (plan.log_stamp >= at) return plan.log_stamp;
+      (void)horizon.step(moment.snapshot, moment.state, moment.goal, moment.now);
+    }
   }
   throw std::runtime_error(
-      fmt::format("--why: no plan is made {:.3f} s into the log or later: it is {:.3f} s long, and "
-                  "a plan is made whenever a depth frame enters the history",
+      fmt::format("--why: no plan is made {:.3f} s into the log or later: it is {:.3f} s long, and a plan is made "
+                  "where the flight made one or, without its steps, whenever a depth frame enters the history",
                   toSeconds(at - playback.logStart()), toSeconds(playback.logEnd() - playback.logStart())));
 }
 
@@ -43,15 +44,15 @@ void requireCandidate(const Explanation& explanation, std::uint32_t index) {
 
 std::string why(LogReader& log, const Configuration& configuration, const ReplayOptions& options,
                 const WhyQuestion& question) {
-  Playback playback(log, configuration, options.span);
+  const auto playback = makePlayback(log, configuration, options.span);
   RecedingHorizon horizon(configuration.planner);
   Moment moment;
-  const Time log_stamp = runToPlan(playback, options.goal, playback.logStart() + question.at, horizon, moment);
-  const Explanation explanation = horizon.explain(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp);
+  const Time log_stamp = runToPlan(*playback, options.goal, playback->logStart() + question.at, horizon, moment);
+  const Explanation explanation = horizon.explain(moment.snapshot, moment.state, moment.goal, moment.now);
   if (question.candidate) requireCandidate(explanation, *question.candidate);
 
   Text text;
-  text.line("plan made {:.3f} s into the log", toSeconds(log_stamp - playback.logStart()));
+  text.line("plan made {:.3f} s into the log", toSeconds(log_stamp - playback->logStart()));
   writeExplanation(text, explanation, moment, question.candidate);
   return text.take();
 }

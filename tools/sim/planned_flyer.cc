@@ -87,7 +87,7 @@ void PlannedFlyer::plan(Time arrival) {
   pipeline_.chain().snapshotInto(snapshot_);
   const Decision decision = horizon_.step(snapshot_, *pipeline_.state(), pipeline_.goal(), snapshot_.stamp);
   if (decision.candidate) command_.yaw_W_rad = decision.yaw_W_rad;
-  log_.write(configuration_.lcm.decisions_channel, arrival, toMessage(decision, summary_.plans.total()));
+  log_.write(configuration_.lcm.decisions_channel, arrival, toMessage(decision, {.sequence = summary_.plans.total()}));
   summary_.plans.record(decision);
 }
 

@@ -75,9 +75,11 @@ Decision decisionOf() {
 }
 
 TEST(DecisionMessage, EveryValueArrives) {
-  const decision_t message = toMessage(decisionOf(), 99);
+  const decision_t message = toMessage(decisionOf(), {.sequence = 99, .step = 1234, .flown = false});
   EXPECT_EQ(message.utime, 1'234'000);
   EXPECT_EQ(message.sequence, 99);
+  EXPECT_EQ(message.step, 1234);
+  EXPECT_FALSE(message.flown);
   EXPECT_EQ(message.epoch, 2);
   EXPECT_EQ(message.state_sequence, 11);
   EXPECT_EQ(message.pose_sequence, 12);
@@ -105,7 +107,7 @@ TEST(DecisionMessage, EveryValueArrives) {
 }
 
 TEST(DecisionMessage, TrajectoryIsItsStartAndPieces) {
-  const trajectory_t trajectory = toMessage(decisionOf(), 0).trajectory;
+  const trajectory_t trajectory = toMessage(decisionOf(), {}).trajectory;
   EXPECT_EQ(trajectory.utime, 1'234'000);
   EXPECT_THAT(trajectory.position, ElementsAre(1, 2, 3));
   EXPECT_THAT(trajectory.velocity, ElementsAre(4, 5, 6));
@@ -116,7 +118,9 @@ TEST(DecisionMessage, TrajectoryIsItsStartAndPieces) {
 }
 
 TEST(DecisionMessage, WhatWasNotConsumedOrChosenIsFlagged) {
-  const decision_t message = toMessage(Decision{}, 0);
+  const decision_t message = toMessage(Decision{}, {});
+  EXPECT_EQ(message.step, 0);
+  EXPECT_TRUE(message.flown);
   EXPECT_FALSE(message.has_view);
   EXPECT_FALSE(message.has_correction);
   EXPECT_FALSE(message.has_goal);

@@ -22,7 +22,7 @@ std::vector<decision_t> decisions(int count) {
     decision.candidate = 7;
     decision.reason = Reason::kFlying;
     decision.risk = 0.125;
-    all.push_back(toMessage(decision, static_cast<std::uint64_t>(i)));
+    all.push_back(toMessage(decision, {.sequence = static_cast<std::uint64_t>(i)}));
   }
   return all;
 }
@@ -66,6 +66,8 @@ TEST(CompareDecisions, LastBitOfANumberIsADifference) {
 TEST(CompareDecisions, EveryFieldIsCompared) {
   using Change = void (*)(decision_t&);
   const std::vector<std::pair<std::string, Change>> changes = {
+      {"step", [](decision_t& d) { d.step = 1; }},
+      {"flown", [](decision_t& d) { d.flown = 0; }},
       {"state_sequence", [](decision_t& d) { d.state_sequence = 1; }},
       {"pose_sequence", [](decision_t& d) { d.pose_sequence = 1; }},
       {"epoch", [](decision_t& d) { d.epoch = 1; }},

@@ -1,4 +1,4 @@
-#include "firmware_app/stages/stamp_clock.h"
+#include "firmware_app/pipeline/stamp_clock.h"
 
 #include <algorithm>
 #include <variant>
