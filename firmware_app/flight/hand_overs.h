@@ -6,6 +6,7 @@
 #include "firmware_app/handover/doorbell.h"
 #include "firmware_app/handover/mailbox.h"
 #include "firmware_app/handover/slot_queue.h"
+#include "firmware_app/pipeline/step.h"
 #include "firmware_app/stages/handed_over.h"
 #include "firmware_app/stages/index_stage.h"
 #include "firmware_app/stages/ingest.h"
@@ -44,7 +45,7 @@ struct HandOvers {
   SlotQueue<VehicleReport> vehicle{512};  ///< sink
   Mailbox<ChainSnapshot> newest;          ///< sink
   Mailbox<PlanningMoment> moments;        ///< planner
-  SlotQueue<ChainStep> steps{2048};       ///< recorder
+  SlotQueue<Step> steps{2048};            ///< recorder
   Mailbox<ChainCounters> chain_counters;
   SlotQueue<Duration> chain_times{1024};
 
