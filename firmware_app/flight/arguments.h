@@ -10,8 +10,7 @@ namespace nanomap {
 struct FlightArguments {
   std::string config;
   std::vector<std::string> overrides;
-  std::string log;  ///< empty: messages come from the network
-  double rate = 1.0;
+  std::string log;     ///< empty: messages come from the network
   std::string record;  ///< directory; empty: nothing is recorded
   bool allow_no_realtime = false;
   bool check = false;

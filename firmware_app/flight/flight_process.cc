@@ -17,28 +17,6 @@ constexpr Duration kLongestStageWork = std::chrono::milliseconds(300);
 constexpr Duration kLongestPlainWork = std::chrono::seconds(1);
 constexpr Duration kLongestIdle = std::chrono::seconds(1);
 
-/// Views that are on their way, or held by a snapshot that nobody has replaced yet.
-constexpr std::size_t kViewsUnderWay = 32;
-
-SinkParameters sinkParameters(const Configuration& configuration) {
-  SinkParameters sink;
-  sink.safety = configuration.safety;
-  sink.alignment = configuration.mavlink.alignment;
-  sink.max_yaw_rate_rad_s = configuration.planner.heading.max_rate_rad_s;
-  sink.send_obstacles = configuration.mavlink.send_obstacles;
-  sink.obstacle_band = configuration.mavlink.obstacle_band;
-  sink.query = configuration.planner.risk.query;
-  sink.recording = configuration.lcm.clock == ClockDomain::kLog;
-  sink.send_odometry = configuration.mavlink.send_odometry;
-  return sink;
-}
-
-ViewBuilder viewBuilder(const Configuration& configuration) {
-  const ChainParameters& chain = configuration.chain;
-  return ViewBuilder(configuration.camera, configuration.index,
-                     chain.history_views + chain.waiting_views + kViewsUnderWay);
-}
-
 template <class Work>
 void timed(SlotQueue<Duration>& times, Work&& work) {
   const Time start = processNow();
@@ -50,22 +28,8 @@ void timed(SlotQueue<Duration>& times, Work&& work) {
 FlightProcess::FlightProcess(const Configuration& configuration, const FlightOptions& options, MessageSource& source,
                              AutopilotLink& link)
     : options_(options),
-      hand_overs_(configuration.chain.history_views),
       setpoint_period_(fromSeconds(1.0 / configuration.mavlink.setpoint_rate_hz)),
-      ingest_(configuration.lcm, StampClock(configuration.lcm.clock, realtimeAhead()),
-              {hand_overs_.inputs, hand_overs_.chain_bell, hand_overs_.frames, hand_overs_.capture_bell,
-               hand_overs_.cameras, hand_overs_.index_bell, hand_overs_.ingest_counters}),
-      depth_source_(hand_overs_.frames, hand_overs_.capture_bell),
-      index_(viewBuilder(configuration), {hand_overs_.cameras, hand_overs_.captured, hand_overs_.indexed,
-                                          hand_overs_.chain_bell, hand_overs_.index_counters}),
-      chain_(configuration.chain, configuration.camera.has_value(),
-             {hand_overs_.inputs, hand_overs_.indexed, hand_overs_.vehicle, hand_overs_.newest, hand_overs_.moments,
-              hand_overs_.planner_bell, hand_overs_.steps, hand_overs_.chain_counters}),
-      plan_(configuration.planner, {hand_overs_.moments, hand_overs_.flown, hand_overs_.plans, hand_overs_.decisions,
-                                    hand_overs_.newest_decision}),
-      sink_(sinkParameters(configuration), link,
-            {hand_overs_.vehicle, hand_overs_.plans, hand_overs_.newest, hand_overs_.flown, hand_overs_.stalled,
-             hand_overs_.setpoints, hand_overs_.sink_report, hand_overs_.setpoint_latencies}) {
+      stages_(configuration, realtimeAhead(), link) {
   const auto realtime = [&](RealtimeThread thread) {
     return ThreadSettings{std::string(toString(thread)), options_.layout[thread], kDefaultStackBytes,
                           options_.demand_realtime};
@@ -81,14 +45,16 @@ FlightProcess::FlightProcess(const Configuration& configuration, const FlightOpt
   start(
       plain("mavlink"), [this] { sleepUntil(next_setpoint_); }, [this] { sink(); });
   start(
-      realtime(RealtimeThread::kPlanner), [this] { hand_overs_.planner_bell.wait(kLongestWait); }, [this] { plan(); });
+      realtime(RealtimeThread::kPlanner), [this] { stages_.hand_overs.planner_bell.wait(kLongestWait); },
+      [this] { plan(); });
   start(
-      realtime(RealtimeThread::kChain), [this] { hand_overs_.chain_bell.wait(kLongestWait); }, [this] { chain(); });
+      realtime(RealtimeThread::kChain), [this] { stages_.hand_overs.chain_bell.wait(kLongestWait); },
+      [this] { chain(); });
   start(
-      realtime(RealtimeThread::kIndex), [this] { hand_overs_.index_bell.wait(kLongestWait); }, [this] { index(); });
+      realtime(RealtimeThread::kIndex), [this] { stages_.hand_overs.index_bell.wait(kLongestWait); },
+      [this] { index(); });
   start(
-      realtime(RealtimeThread::kCapture), [this] { captured_one_ = depth_source_.capture(captured_, kLongestWait); },
-      [this] { capture(); });
+      realtime(RealtimeThread::kCapture), [] {}, [this] { stages_.capture(kLongestWait); });
   start(
       plain("ingest"), [] {}, [this, &source] { ingest(source); });
 
@@ -128,31 +94,25 @@ void FlightProcess::ingest(MessageSource& source) {
     return;
   }
   const auto wait = source.wait(kLongestWait, [this](const ReceivedMessage& message) {
-    const auto kind = ingest_.kindOf(message.channel);
+    const auto kind = stages_.ingest.kindOf(message.channel);
     if (!kind) return;
-    const Time arrival = ingest_.arrivalAt(processNow());
+    const Time arrival = stages_.ingest.arrivalAt(processNow());
     options_.on_message(message, arrival);
-    ingest_.take(*kind, message.bytes, arrival);
+    stages_.ingest.take(*kind, message.bytes, arrival);
   });
   if (wait == MessageSource::Wait::kEnded) source_ended_.store(true, std::memory_order_relaxed);
 }
 
-void FlightProcess::capture() {
-  if (!captured_one_) return;
-  hand_overs_.captured.push([this](ArrivedFrame& slot) { std::swap(slot, captured_); });
-  hand_overs_.index_bell.ring();
-}
-
 void FlightProcess::index() {
-  timed(hand_overs_.index_times, [this] { return index_.run() > 0; });
+  timed(stages_.hand_overs.index_times, [this] { return stages_.index.run() > 0; });
 }
 
 void FlightProcess::chain() {
-  timed(hand_overs_.chain_times, [this] { return chain_.run(processNow()) > 0; });
+  timed(stages_.hand_overs.chain_times, [this] { return stages_.chain.run(processNow()) > 0; });
 }
 
 void FlightProcess::plan() {
-  timed(hand_overs_.plan_times, [this] { return plan_.run(processNow()); });
+  timed(stages_.hand_overs.plan_times, [this] { return stages_.plan.run(processNow()); });
 }
 
 void FlightProcess::sink() {
@@ -161,7 +121,7 @@ void FlightProcess::sink() {
     if (next_setpoint_ != Time{}) late_setpoints_.fetch_add(1, std::memory_order_relaxed);
     next_setpoint_ = now;  // what was missed is not made up for
   }
-  sink_.run(now);
+  stages_.sink.run(now);
   next_setpoint_ += setpoint_period_;
 }
 
@@ -169,7 +129,7 @@ void FlightProcess::watch() {
   next_watch_ = processNow() + kWatchPeriod;
   const auto stalls = watchdog_->judge(processNow());
   for (const Stall& stall : stalls) stalls_.push([&](Stall& slot) { slot = stall; });
-  hand_overs_.stalled.store(!stalls.empty(), std::memory_order_relaxed);
+  stages_.hand_overs.stalled.store(!stalls.empty(), std::memory_order_relaxed);
 }
 
 }  // namespace nanomap

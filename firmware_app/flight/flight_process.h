@@ -11,15 +11,9 @@
 #include "drivers/lcm/message_source.h"
 #include "drivers/mavlink/autopilot_link.h"
 #include "firmware_app/configuration/configuration.h"
-#include "firmware_app/flight/hand_overs.h"
 #include "firmware_app/flight/worker.h"
 #include "firmware_app/realtime/thread_layout.h"
-#include "firmware_app/stages/chain_keeper.h"
-#include "firmware_app/stages/depth_source.h"
-#include "firmware_app/stages/index_stage.h"
-#include "firmware_app/stages/ingest.h"
-#include "firmware_app/stages/plan_stage.h"
-#include "firmware_app/stages/sink_stage.h"
+#include "firmware_app/stages/stages.h"
 #include "firmware_app/supervision/watchdog.h"
 
 namespace nanomap {
@@ -43,7 +37,7 @@ class FlightProcess {
                 AutopilotLink& link);
   ~FlightProcess();
 
-  [[nodiscard]] HandOvers& handOvers() { return hand_overs_; }
+  [[nodiscard]] HandOvers& handOvers() { return stages_.hand_overs; }
 
   /// The source has nothing more, and never will.
   [[nodiscard]] bool sourceEnded() const { return source_ended_.load(std::memory_order_relaxed); }
@@ -59,7 +53,6 @@ class FlightProcess {
 
  private:
   void ingest(MessageSource& source);
-  void capture();
   void index();
   void chain();
   void plan();
@@ -67,17 +60,9 @@ class FlightProcess {
   void watch();
 
   FlightOptions options_;
-  HandOvers hand_overs_;
   Duration setpoint_period_;
 
-  Ingest ingest_;
-  MessageDepthSource depth_source_;
-  ArrivedFrame captured_;  ///< the capture thread's own
-  bool captured_one_ = false;
-  IndexStage index_;
-  ChainKeeper chain_;
-  PlanStage plan_;
-  SinkStage sink_;
+  Stages stages_;
   Time next_setpoint_{};
 
   std::atomic<bool> source_ended_{false};

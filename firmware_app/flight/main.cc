@@ -118,8 +118,8 @@ int run(const FlightArguments& arguments) {
   if (network.warning()) spdlog::warn("{}", *network.warning());
   std::unique_ptr<LogSource> log;
   if (!from_network) {
-    log = std::make_unique<LogSource>(LogReader(arguments.log), channelsOf(configuration.lcm), arguments.rate,
-                                      monotonicLogClock());
+    log =
+        std::make_unique<LogSource>(LogReader(arguments.log), channelsOf(configuration.lcm), 1.0, monotonicLogClock());
   }
   MessageSource& source = from_network ? static_cast<MessageSource&>(network) : *log;
   MavlinkLink link(configuration.mavlink.link, processNow);

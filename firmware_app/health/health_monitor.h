@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_app/flight/hand_overs.h"
+#include "firmware_app/stages/hand_overs.h"
 #include "firmware_app/health/latency_histogram.h"
 #include "nanomap/health_t.hpp"
 
