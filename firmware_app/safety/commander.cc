@@ -37,9 +37,11 @@ Commander::Commander(const SafetyParameters& parameters, double max_yaw_rate_rad
     : machine_(checked(parameters)), heading_(max_yaw_rate_rad_s) {}
 
 Command Commander::step(Time now, const CommandInputs& inputs) {
-  in_force_.update(inputs.plan.in_force, inputs.plan.sequence, inputs.alignment);
   Command command;
   command.verdict = machine_.step(situationAt(now, inputs));
+  const bool braked = command.verdict.state == State::kBraking || command.verdict.state == State::kLost;
+  if (!braked) in_force_.adopt(inputs.plan.in_force, inputs.plan.sequence, inputs.alignment);
+  in_force_.follow(inputs.alignment);
   command.status = statusOf(command.verdict);
   command.motion = motion(now, command.verdict.stream, inputs);
   if (command.motion) {
@@ -62,9 +64,8 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs) const {
     situation.speed_m_s = vehicle.state->velocity_W_m_s.norm();
     situation.anchored = alignment.verdict == AlignmentVerdict::kGood && alignment.epoch == vehicle.state->epoch;
   }
-  // Before the first alignment nothing is in force: the plan itself is not what is missing then.
-  if (const auto& decision = in_force_.decision() ? in_force_.decision() : inputs.plan.in_force) {
-    situation.plan = decision->stamp;
+  if (inputs.plan.in_force) situation.plan = inputs.plan.in_force->stamp;
+  if (const auto& decision = in_force_.decision()) {
     situation.brake_end = decision->brake.start() + fromSeconds(decision->brake.duration_s());
     situation.anchored_before_jump = decision->consumed.epoch != alignment.epoch;
   }

@@ -2,13 +2,23 @@
 
 namespace nanomap {
 
-void MotionInForce::update(const std::optional<Decision>& newest, std::uint64_t sequence, const Alignment& alignment) {
-  if (alignment.verdict != AlignmentVerdict::kGood || !alignment.T_NED_W) return;
-  if (newest && newest->consumed.epoch == alignment.epoch) {
-    decision_ = newest;
-    sequence_ = sequence;
-  }
-  if (decision_ && decision_->consumed.epoch == alignment.epoch) anchor_ = *alignment.T_NED_W;
+namespace {
+
+bool isKnown(const Alignment& alignment, const std::optional<Decision>& decision) {
+  return alignment.verdict == AlignmentVerdict::kGood && alignment.T_NED_W && decision &&
+         decision->consumed.epoch == alignment.epoch;
+}
+
+}  // namespace
+
+void MotionInForce::adopt(const std::optional<Decision>& newest, std::uint64_t sequence, const Alignment& alignment) {
+  if (!isKnown(alignment, newest)) return;
+  decision_ = newest;
+  sequence_ = sequence;
+}
+
+void MotionInForce::follow(const Alignment& alignment) {
+  if (isKnown(alignment, decision_)) anchor_ = *alignment.T_NED_W;
 }
 
 }  // namespace nanomap

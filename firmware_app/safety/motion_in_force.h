@@ -10,15 +10,17 @@
 namespace nanomap {
 
 /// The decision that is flown, and where its world is in the autopilot's. A decision is only taken over when that is
-/// known: after a jump of the estimator's world, the one from before is flown on, where it was, until the new world's
-/// place is known too. So the setpoint never steps with the estimator.
+/// known, and not while the vehicle is braked: what is flown then is the brake that was verified before. So the
+/// setpoint never steps with the estimator: after a jump of its world, the motion from before is flown where it was.
 /// Threads: one. Allocates: no.
 class MotionInForce {
  public:
-  /// @param newest     the last decision that may be flown (isFlyable), if there was one
-  /// @param sequence   the planner's count of it
-  /// @param alignment  at this moment
-  void update(const std::optional<Decision>& newest, std::uint64_t sequence, const Alignment& alignment);
+  /// Goes over to the last decision that may be flown (isFlyable), if there was one and its world's place is known.
+  /// @param sequence  the planner's count of it
+  void adopt(const std::optional<Decision>& newest, std::uint64_t sequence, const Alignment& alignment);
+
+  /// Keeps up with what is known of the world that the decision in force is of.
+  void follow(const Alignment& alignment);
 
   [[nodiscard]] const std::optional<Decision>& decision() const { return decision_; }
   [[nodiscard]] std::uint64_t sequence() const { return sequence_; }

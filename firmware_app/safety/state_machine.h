@@ -10,26 +10,30 @@
 
 namespace nanomap {
 
+// clang-format off
 /// Who flies, and how well we could.
 ///
-/// | state   | stream                   | leaves for | when |
-/// |---------|--------------------------|------------|------------------------------------------------------------------|
-/// | Waiting | none                     | Ready      | no fault for `settle` | | Ready   | hold where the vehicle is|
-/// Waiting    | a fault                                                          | |         | | Flying     | the pilot
-/// has switched to external control since we became Ready,| |         |                          |            | has not
-/// left it since, and the vehicle is armed                  | | Flying  | the motion in force      | Braking    | a
-/// fault                                                          | |         |                          | Waiting    |
-/// the pilot has left external control, or the vehicle is disarmed  | | Braking | the same, which leads to | Waiting |
-/// as above                                                         | |         | a standstill; velocities | Flying |
-/// no fault for `settle`                                            | |         | if positions mean nothing| Lost |
-/// stopped                                                          | | Lost    | none: the autopilot's    | Waiting |
-/// the pilot has left external control, or the vehicle is disarmed  | |         | failsafe acts            | | |
+/// | state   | stream                    | leaves for | when                                                      |
+/// |---------|---------------------------|------------|-----------------------------------------------------------|
+/// | Waiting | none                      | Ready      | no fault for `settle`                                     |
+/// | Ready   | hold where the vehicle is | Waiting    | a fault                                                   |
+/// |         |                           | Flying     | the pilot has switched to external control since we became|
+/// |         |                           |            | Ready, has not left it since, and the vehicle is armed    |
+/// | Flying  | the motion in force       | Braking    | a fault                                                   |
+/// |         |                           | Waiting    | the pilot has left external control, or has disarmed      |
+/// | Braking | its brake, to a standstill| Waiting    | as above                                                  |
+/// |         | (velocities only, where   | Flying     | no fault for `settle`                                     |
+/// |         | positions mean nothing)   | Lost       | stopped                                                   |
+/// | Lost    | none: the autopilot's own | Waiting    | the pilot has left external control, or has disarmed      |
+/// |         | failsafe acts             |            |                                                           |
 ///
-/// Stopped: the brake's planned end has passed by `stop_margin`; or it has passed, the vehicle is seen to stand, and
-/// the fault has lasted for `patience`. Waiting becomes Ready in the same step if there is no fault: a pilot who takes
-/// over and gives back loses no time. But only a switch that was seen in Ready is an order to fly: none from before a
-/// restart, from before a fault, or of a link that was down. An age is a fault above its limit; exactly at the limit it
-/// is not yet.
+/// Stopped: the brake's planned end has passed by `stop_margin`; or it has passed, the vehicle is seen to stand, and the
+/// fault has lasted for `patience`.
+/// Waiting becomes Ready in the same step if there is no fault: a pilot who takes over and gives back loses no time. But
+/// only a switch that was seen in Ready is an order to fly: none from before a restart, from before a fault, or of a
+/// link that was down.
+/// An age is a fault above its limit; exactly at the limit it is not yet.
+// clang-format on
 enum class State : std::uint8_t { kWaiting, kReady, kFlying, kBraking, kLost };
 
 [[nodiscard]] std::string_view toString(State state);
@@ -50,8 +54,8 @@ struct Situation {
   bool camera = false;
   std::optional<Time> depth;      ///< newest view of the chain
   std::optional<Time> pose;       ///< newest pose of the chain
-  std::optional<Time> plan;       ///< what the motion in force was planned for
-  std::optional<Time> brake_end;  ///< when that motion stands
+  std::optional<Time> plan;       ///< what the last decision that may be flown was planned for
+  std::optional<Time> brake_end;  ///< when the motion in force stands
   std::optional<double> speed_m_s;
   bool stalled = false;
   bool anchored = false;  ///< T_NED_W is known well for the world that poses are in now

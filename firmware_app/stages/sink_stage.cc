@@ -48,8 +48,7 @@ void SinkStage::run(Time now) {
 
   const Command command = commander_.step(now, inputs_);
   status_ = command.status;
-  const State state = command.verdict.state;
-  ports_.flown.store(state == State::kFlying || state == State::kBraking, std::memory_order_relaxed);
+  ports_.flown.store(command.verdict.state == State::kFlying, std::memory_order_relaxed);
   send(now, command);
   if (const auto text = voice_.step(now, command.verdict, inputs_.plan.reason)) {
     if (link_.sendText(text->severity, text->text) == SendResult::kSent) ++counters_.texts;
@@ -64,7 +63,7 @@ void SinkStage::run(Time now) {
     report.reason = inputs_.plan.reason;
     report.depth_age = ageOf(inputs_.vehicle.newest_view, now);
     report.pose_age = inputs_.vehicle.state ? ageOf(inputs_.vehicle.state->stamp, now) : std::nullopt;
-    report.plan_age = commander_.inForce() ? ageOf(commander_.inForce()->stamp, now) : std::nullopt;
+    report.plan_age = inputs_.plan.in_force ? ageOf(inputs_.plan.in_force->stamp, now) : std::nullopt;
     report.counters = counters_;
   });
 }

@@ -1,0 +1,294 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/lcm/encode.h"
+#include "firmware_app/stages/stages.h"
+#include "tests/support/camera.h"
+#include "tests/support/drawing.h"
+
+namespace nanomap::test {
+
+/// What can break between the flight's parts, and how.
+enum class Broken { kDepth, kPose, kCorrection, kMavlink, kPlanner, kSink, kClock };
+enum class How { kOff, kStuck, kLate, kGarbage, kJumping, kIntermittent };
+
+/// An autopilot in the same process: a vehicle that does at once what it is told, and stands when it is told nothing.
+class ObedientAutopilot : public AutopilotLink {
+ public:
+  static constexpr Duration kStreamTimeout = std::chrono::milliseconds(500);
+
+  void keepAlive(SystemStatus told) override { status = told; }
+  SendResult send(const LocalNedTarget& target) override {
+    targets.emplace_back(now, target);
+    return SendResult::kSent;
+  }
+  SendResult send(const ObstacleDistances&) override { return SendResult::kSent; }
+  SendResult send(const OdometryMessage&) override { return SendResult::kSent; }
+  SendResult sendText(Severity, std::string_view text) override {
+    texts.emplace_back(text);
+    return SendResult::kSent;
+  }
+  [[nodiscard]] AutopilotState autopilot() const override { return state; }
+  std::optional<AutopilotPose> takePose() override {
+    if (poses.empty()) return std::nullopt;
+    const AutopilotPose pose = poses.front();
+    poses.pop_front();
+    return pose;
+  }
+
+  /// Moves the vehicle over the time since the last call.
+  void move(Time until) {
+    const double elapsed_s = toSeconds(until - now);
+    now = until;
+    const bool obeys = state.external_control && !targets.empty() && now - targets.back().first < kStreamTimeout;
+    if (!obeys) {
+      velocity_NED_m_s.setZero();
+      return;
+    }
+    const LocalNedTarget& target = targets.back().second;
+    velocity_NED_m_s = target.velocity_NED_m_s.cast<double>();
+    const bool with_position = (target.type_mask & 0b111) == 0;
+    position_NED_m = with_position ? Vec3(target.position_NED_m.cast<double>() - offset_NED_m)
+                                   : Vec3(position_NED_m + velocity_NED_m_s * elapsed_s);
+    heading_rad = static_cast<double>(target.yaw_NED_rad);
+  }
+
+  Time now{};
+  AutopilotState state;
+  Vec3 position_NED_m = Vec3::Zero();
+  Vec3 offset_NED_m = Vec3::Zero();  ///< that its own estimate is off by
+  Vec3 velocity_NED_m_s = Vec3::Zero();
+  double heading_rad = 0.0;
+  std::deque<AutopilotPose> poses;
+  std::vector<std::pair<Time, LocalNedTarget>> targets;
+  std::vector<std::string> texts;
+  SystemStatus status = SystemStatus::kBoot;
+};
+
+/// The whole way from messages to an autopilot, on one thread and a clock of its own: a vehicle in open space towards a
+/// far goal, with something 9 m away in every direction that the camera looks in.
+class FlightOnAFakeClock {
+ public:
+  static constexpr Duration kTick = std::chrono::milliseconds(10);
+  static constexpr double kHeading_rad = 1.2;  ///< of W in NED
+
+  FlightOnAFakeClock() : stages_(configuration(), Duration::zero(), autopilot) {
+    autopilot.now = now_;
+    autopilot.state.linked = true;
+    autopilot.state.armed = true;
+    autopilot.state.kind = AutopilotKind::kPx4;
+    autopilot.position_NED_m = T_NED_W_.point({0.0, 0.0, 2.0});
+    autopilot.heading_rad = T_NED_W_.heading(0.0);
+    goal_t goal{};
+    goal.position[0] = 500.0;
+    goal.position[2] = 2.0;
+    goal.top_speed = 5.0;
+    send(InputKind::kGoal, goal);
+  }
+
+  static Configuration configuration() {
+    Configuration configuration;
+    configuration.camera = smallCamera();
+    return configuration;
+  }
+
+  /// Breaks something from now on.
+  void breakIt(Broken what, How how) { broken_ = {what, how, now_}; }
+  void mend() { broken_.reset(); }
+
+  void order() {
+    autopilot.state.external_control = true;
+    ++autopilot.state.external_control_entries;
+  }
+
+  void run(Duration duration) {
+    for (const Time end = now_ + duration; now_ < end;) tick();
+  }
+
+  /// The whole process stands still while the world goes on; what arrives meanwhile waits.
+  void stopProcess(Duration duration) {
+    for (const Time end = now_ + duration; now_ < end;) {
+      now_ += kTick;
+      autopilot.move(now_);
+      sense();
+    }
+    runStages();
+  }
+
+  [[nodiscard]] Time now() const { return now_; }
+  [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] double speed_m_s() const { return autopilot.velocity_NED_m_s.norm(); }
+  [[nodiscard]] bool wasIn(State state) const { return first_in_.contains(state); }
+  [[nodiscard]] Duration until(State state, Time from) const { return first_in_.at(state) - from; }
+  void forgetStates() { first_in_.clear(); }
+  [[nodiscard]] const std::vector<SentSetpoint>& setpoints() const { return setpoints_; }
+  [[nodiscard]] const MadeDecision* decision(std::uint64_t sequence) const {
+    const auto found = decisions_.find(sequence);
+    return found == decisions_.end() ? nullptr : &found->second;
+  }
+
+  ObedientAutopilot autopilot;
+
+ private:
+  struct Fault {
+    Broken what;
+    How how;
+    Time since{};
+  };
+
+  [[nodiscard]] bool is(Broken what, How how) const { return broken_ && broken_->what == what && broken_->how == how; }
+  /// Half of the time, by turns, since the fault began.
+  [[nodiscard]] bool everyOther(Duration period) const { return (now_ - broken_->since) / period % 2 == 0; }
+  [[nodiscard]] bool silent(Broken what) const {
+    return is(what, How::kOff) || (is(what, How::kIntermittent) && everyOther(std::chrono::milliseconds(300)));
+  }
+
+  void tick() {
+    now_ += kTick;
+    ++ticks_;
+    autopilot.move(now_);
+    sense();
+    runStages();
+  }
+
+  void sense() {
+    tellAutopilotPose();
+    sendPose();
+    if (ticks_ % 3 == 0) sendDepth();
+    if (ticks_ % 50 == 0) sendCorrection();
+    deliverLate();
+  }
+
+  void runStages() {
+    stages_.capture(Duration::zero());
+    stages_.index.run();
+    stages_.chain.run(now_);
+    const bool planner_runs = !silent(Broken::kPlanner) && !is(Broken::kPlanner, How::kStuck) &&
+                              (!is(Broken::kPlanner, How::kLate) || ticks_ % 40 == 0);
+    if (planner_runs) stages_.plan.run(now_);
+    const bool sink_runs = !silent(Broken::kSink) && !is(Broken::kSink, How::kStuck) &&
+                           (!is(Broken::kSink, How::kLate) || ticks_ % 30 == 0);
+    if (ticks_ % 2 == 0 && sink_runs) stages_.sink.run(now_);
+    while (stages_.hand_overs.decisions.pop([this](const MadeDecision& made) { decisions_[made.sequence] = made; })) {
+    }
+    while (stages_.hand_overs.setpoints.pop([this](const SentSetpoint& sent) {
+      state_ = sent.verdict.state;
+      first_in_.try_emplace(state_, sent.stamp);
+      setpoints_.push_back(sent);
+    })) {
+    }
+    while (stages_.hand_overs.steps.pop([](const Step&) {})) {
+    }
+  }
+
+  [[nodiscard]] Time stampNow() const {
+    if (is(Broken::kClock, How::kLate)) return now_ - std::chrono::seconds(1);
+    if (is(Broken::kClock, How::kJumping)) return now_ + std::chrono::milliseconds(300);
+    return now_;
+  }
+
+  [[nodiscard]] Pose T_W_B() const {
+    return {Quat(levelAxes(kHeading_rad - autopilot.heading_rad)), T_NED_W_.pointInWorld(autopilot.position_NED_m)};
+  }
+
+  void tellAutopilotPose() {
+    if (ticks_ % 2 != 0) return;
+    autopilot.state.linked = !silent(Broken::kMavlink);
+    if (silent(Broken::kMavlink)) return;
+    AutopilotPose pose{now_, autopilot.position_NED_m + autopilot.offset_NED_m, autopilot.heading_rad};
+    if (is(Broken::kMavlink, How::kStuck)) pose.stamp = broken_->since;
+    if (is(Broken::kMavlink, How::kLate)) pose.stamp = now_ - std::chrono::seconds(2);
+    if (is(Broken::kMavlink, How::kGarbage)) pose.position_NED_m.setConstant(std::nan(""));
+    if (is(Broken::kMavlink, How::kJumping)) pose.position_NED_m.x() += everyOther(std::chrono::seconds(1)) ? 5.0 : 0.0;
+    autopilot.poses.push_back(pose);
+  }
+
+  void sendPose() {
+    BodyPose pose;
+    pose.stamp = stampNow();
+    pose.sequence = static_cast<std::uint64_t>(ticks_);
+    pose.T_W_B = T_W_B();
+    const Vec3 velocity_W_m_s = T_NED_W_.directionInWorld(autopilot.velocity_NED_m_s);
+    if (is(Broken::kPose, How::kJumping))
+      pose.T_W_B.translation_m.y() += everyOther(std::chrono::milliseconds(200)) ? 3.0 : 0.0;
+    poses_.push_back({pose.stamp, pose.T_W_B});
+    send(InputKind::kPose, toMessage(pose, BodyMotion{velocity_W_m_s, Vec3::Zero(), Vec3::Zero()}), Broken::kPose);
+  }
+
+  void sendDepth() {
+    DepthImage image = flatImage(camera_, 9000, stampNow() - std::chrono::milliseconds(30));
+    image.sequence = static_cast<std::uint64_t>(ticks_);
+    if (is(Broken::kDepth, How::kJumping))
+      image.stamp += std::chrono::seconds(everyOther(std::chrono::milliseconds(100)) ? 2 : -2);
+    send(InputKind::kDepth, toMessage(image, "front", DepthCompression::kRaw), Broken::kDepth);
+  }
+
+  void sendCorrection() {
+    Correction correction;
+    correction.sequence = static_cast<std::uint64_t>(ticks_);
+    for (std::size_t i = poses_.size() > 200 ? poses_.size() - 200 : 0; i < poses_.size(); i += 10)
+      correction.poses.push_back(poses_[i]);
+    if (is(Broken::kCorrection, How::kJumping)) {
+      for (CorrectedPose& pose : correction.poses)
+        pose.T_W_B.translation_m.y() += everyOther(std::chrono::seconds(1)) ? 5.0 : 0.0;
+    }
+    send(InputKind::kCorrection, toMessage(correction, now_), Broken::kCorrection);
+  }
+
+  template <class Message>
+  void send(InputKind kind, const Message& message, std::optional<Broken> channel = std::nullopt) {
+    std::vector<std::uint8_t> bytes;
+    ASSERT_TRUE(encodeInto(message, bytes));
+    if (!channel) return take(kind, bytes);
+    if (silent(*channel)) return;
+    if (is(*channel, How::kStuck)) return take(kind, last_good_[kind]);
+    if (is(*channel, How::kLate)) {
+      late_.emplace_back(now_ + std::chrono::seconds(1), kind, bytes);
+      return;
+    }
+    if (is(*channel, How::kGarbage)) {
+      for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random_());
+    } else {
+      last_good_[kind] = bytes;
+    }
+    take(kind, bytes);
+  }
+
+  void take(InputKind kind, const std::vector<std::uint8_t>& bytes) {
+    stages_.ingest.take(kind, bytes, stages_.ingest.arrivalAt(now_));
+  }
+
+  void deliverLate() {
+    while (!late_.empty() && std::get<0>(late_.front()) <= now_) {
+      take(std::get<1>(late_.front()), std::get<2>(late_.front()));
+      late_.pop_front();
+    }
+  }
+
+  NedFromWorld T_NED_W_{kHeading_rad, {40.0, -20.0, -3.0}};
+  CameraModel camera_{smallCamera()};
+  Stages stages_;
+  Time now_ = Time(std::chrono::seconds(1000)) - kTick;
+  std::int64_t ticks_ = 0;
+  std::optional<Fault> broken_;
+  std::mt19937 random_{1};
+  std::vector<CorrectedPose> poses_;
+  std::map<InputKind, std::vector<std::uint8_t>> last_good_;
+  std::deque<std::tuple<Time, InputKind, std::vector<std::uint8_t>>> late_;
+  State state_ = State::kWaiting;
+  std::map<State, Time> first_in_;
+  std::vector<SentSetpoint> setpoints_;
+  std::map<std::uint64_t, MadeDecision> decisions_;
+};
+
+}  // namespace nanomap::test
