@@ -58,6 +58,13 @@ struct MavlinkParameters {
   bool send_odometry = false;  ///< ODOMETRY: the autopilot flies by our estimator
 };
 
+/// How much of flights is kept, and what may wait to be written.
+struct RecorderParameters {
+  std::uint64_t segment_mb = 256;
+  std::uint64_t total_mb = 16'384;
+  std::uint64_t buffer_mb = 64;
+};
+
 /// Everything that one file configures. Plain values: the sections of the file map to them one by one
 /// (firmware_app/configuration/sections.h), and their initialisers are the file's defaults.
 struct Configuration {
@@ -68,6 +75,7 @@ struct Configuration {
   LcmParameters lcm;
   MavlinkParameters mavlink;
   SafetyParameters safety;
+  RecorderParameters recorder;
   std::optional<ThreadLayout> layout;  ///< [realtime]; empty: as the machine's cores suggest
 };
 

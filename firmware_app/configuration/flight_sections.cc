@@ -117,8 +117,27 @@ Section safetySection() {
           {}};
 }
 
+Section recorderSection() {
+  return {"recorder",
+          "Recordings of flights: files of bounded size in one folder (nanomap-flight --record).",
+          {integerKey(
+               "segment_mb", "Largest size of a file, each of which can be read alone.", {1, 4096},
+               [](auto& c) -> auto& { return c.recorder.segment_mb; }),
+           integerKey(
+               "total_mb",
+               "Largest size of all of them, those of earlier flights included: the oldest are deleted. 320x240 raw\n"
+               "depth at 30 Hz takes 17000 an hour. At least twice segment_mb.",
+               {2, 16'777'216}, [](auto& c) -> auto& { return c.recorder.total_mb; }),
+           integerKey(
+               "buffer_mb", "Of messages that may wait while the disk is slow; what does not fit is lost and counted.",
+               {1, 4096}, [](auto& c) -> auto& { return c.recorder.buffer_mb; })},
+          {}};
+}
+
 }  // namespace
 
-std::vector<Section> flightSections() { return {mavlinkSection(), alignmentSection(), safetySection()}; }
+std::vector<Section> flightSections() {
+  return {mavlinkSection(), alignmentSection(), safetySection(), recorderSection()};
+}
 
 }  // namespace nanomap

@@ -55,6 +55,7 @@ class Reader {
     checkCamera();
     checkPlanner();
     checkChannels();
+    checkRecorder();
     if (!faults_.empty()) throw ConfigurationError(fmt::format("{}", fmt::join(faults_, "\n")));
     return configuration_;
   }
@@ -140,6 +141,14 @@ class Reader {
       if (std::find(channels.begin(), channel, *channel) != channel) {
         faults_.push_back(fmt::format("[lcm]: two channels are named '{}': each needs a name of its own", *channel));
       }
+    }
+  }
+
+  void checkRecorder() {
+    const RecorderParameters& recorder = configuration_.recorder;
+    if (recorder.total_mb < 2 * recorder.segment_mb) {
+      faults_.push_back(fmt::format("[recorder]: total_mb = {} must be at least twice segment_mb = {}",
+                                    recorder.total_mb, recorder.segment_mb));
     }
   }
 

@@ -32,7 +32,7 @@ struct QualifiedKey {
 /// Makes [realtime], which may be missing: the machine decides, then.
 [[nodiscard]] Section realtimeSection();
 
-/// Make [mavlink], [alignment] and [safety]: what concerns the autopilot and the pilot.
+/// Make [mavlink], [alignment], [safety] and [recorder]: what only a flight needs.
 [[nodiscard]] std::vector<Section> flightSections();
 
 }  // namespace nanomap

@@ -136,6 +136,11 @@ TEST(Load, ChannelsMustDiffer) {
   EXPECT_THAT(refusal("[lcm]\npose_channel = \"DEPTH\"\n"), HasSubstr("[lcm]: two channels are named 'DEPTH'"));
 }
 
+TEST(Load, RecordingsNeedRoomForTwoFiles) {
+  EXPECT_THAT(refusal("[recorder]\nsegment_mb = 100\ntotal_mb = 199\n"), HasSubstr("at least twice segment_mb = 100"));
+  EXPECT_EQ(parseConfiguration("[recorder]\nsegment_mb = 100\ntotal_mb = 200\n", "x").recorder.total_mb, 200U);
+}
+
 TEST(Load, UnknownKeySuggestsTheOneMeant) {
   EXPECT_EQ(refusal("[history]\n\nveiws = 3\n"),
             "drone.toml:3: unknown key 'history.veiws': did you mean 'history.views'?");
