@@ -178,7 +178,7 @@ class Flight {
       each.at = last = std::max(each.at, last + std::chrono::microseconds(1));
       auto outcome = intake.read(each.kind, each.message);
       each.input = std::get<Input>(std::move(outcome));
-      if (const auto stamp = stampOf(*each.input)) each.stamp_shift = clock.shift(*stamp, each.at);
+      if (const auto stamp = stampOf(*each.input)) each.stamp_shift = clock.shift(each.kind, *stamp, each.at);
       shiftStamps(*each.input, each.stamp_shift);
     }
   }
