@@ -2,15 +2,26 @@
 
 namespace nanomap {
 
+namespace {
+
+/// Clocks of the same time differ a little: a state this much ahead of ours is planned from as if it were now.
+constexpr Duration kMaxStateLead = std::chrono::milliseconds(50);
+
+Time timeToPlanFor(const VehicleState& state, Time now) {
+  const Time whole = std::chrono::floor<std::chrono::microseconds>(now);
+  return state.stamp > whole && state.stamp - whole <= kMaxStateLead ? state.stamp : whole;
+}
+
+}  // namespace
+
 PlanStage::PlanStage(const PlannerParameters& parameters, const PlanPorts& ports)
     : horizon_(parameters), ports_(ports) {}
 
 bool PlanStage::run(Time now) {
-  const Time whole = std::chrono::floor<std::chrono::microseconds>(now);
   const bool planned = ports_.moments.take([&](const PlanningMoment& moment) {
     made_.flown = ports_.flown.load(std::memory_order_relaxed);
     if (!made_.flown) horizon_.release();
-    made_.decision = horizon_.step(moment.snapshot, moment.state, moment.goal, whole);
+    made_.decision = horizon_.step(moment.snapshot, moment.state, moment.goal, timeToPlanFor(moment.state, now));
     made_.step = moment.step;
     newest_view_ = moment.newest_view;
     made_.sequence = next_sequence_++;

@@ -29,7 +29,7 @@ class PlanStage {
   PlanStage(const PlannerParameters& parameters, const PlanPorts& ports);
 
   /// Plans for the moment that waits. False if none does.
-  /// @param now  what is planned for; cut to whole microseconds
+  /// @param now  what is planned for, cut to whole microseconds; or the state's stamp, if that is a little later
   bool run(Time now);
 
  private:
