@@ -22,6 +22,7 @@ struct LocalPositionMessage {
 struct AttitudeMessage {
   std::uint32_t time_boot_ms = 0;
   Quat R_NED_FRD = Quat::Identity();
+  Vec3 angular_rate_FRD_rad_s = Vec3::Zero();
 };
 
 struct LandedStateMessage {

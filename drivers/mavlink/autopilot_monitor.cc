@@ -1,9 +1,9 @@
 #include "drivers/mavlink/autopilot_monitor.h"
 
 #include <chrono>
-#include <cstdlib>
 
 #include "core/level_frame.h"
+#include "drivers/mavlink/turn.h"
 
 namespace nanomap {
 namespace {
@@ -82,12 +82,14 @@ void AutopilotMonitor::receive(const HeartbeatMessage& message, Time arrival) {
 }
 
 void AutopilotMonitor::receive(const LocalPositionMessage& message, Time arrival) {
-  // A vehicle that turns at 1 rad/s is 3 degrees off by then.
+  // The rate of a vehicle that turns may be another one by then.
   constexpr Duration kMaxApart = std::chrono::milliseconds(50);
   position_arrival_ = arrival;
   const Time stamp = clock_.toOurs(message.time_boot_ms, arrival);
-  if (!heading_ || std::chrono::abs(std::chrono::milliseconds(
-                       static_cast<std::int32_t>(message.time_boot_ms - heading_->time_boot_ms))) > kMaxApart) {
+  const Duration apart =
+      attitude_ ? std::chrono::milliseconds(static_cast<std::int32_t>(message.time_boot_ms - attitude_->time_boot_ms))
+                : Duration::max();
+  if (apart > kMaxApart || apart < -kMaxApart) {
     ++counters_.poses_unmatched;
     return;
   }
@@ -95,15 +97,17 @@ void AutopilotMonitor::receive(const LocalPositionMessage& message, Time arrival
     poses_.popFront();
     ++counters_.poses_dropped;
   }
-  poses_.pushBack({stamp, message.position_NED_m, heading_->heading_rad});
+  const Quat R_NED_FRD = turned(attitude_->R_NED_FRD, attitude_->angular_rate_FRD_rad_s, apart);
+  // The forward axis, from north towards east: the same formula gives the heading that gives the yaw in W.
+  poses_.pushBack({stamp, message.position_NED_m, yawOf(R_NED_FRD), message.velocity_NED_m_s, R_NED_FRD,
+                   attitude_->angular_rate_FRD_rad_s});
   ++counters_.poses;
 }
 
 void AutopilotMonitor::receive(const AttitudeMessage& message, Time arrival) {
   attitude_arrival_ = arrival;
   clock_.toOurs(message.time_boot_ms, arrival);
-  // The forward axis, from north towards east: the same formula gives the heading that gives the yaw in W.
-  heading_ = Heading{message.time_boot_ms, yawOf(message.R_NED_FRD)};
+  attitude_ = message;
 }
 
 void AutopilotMonitor::receive(const LandedStateMessage& message, Time /*arrival*/) {

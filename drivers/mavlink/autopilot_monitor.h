@@ -37,18 +37,13 @@ class AutopilotMonitor {
   [[nodiscard]] const AutopilotMonitorCounters& counters() const { return counters_; }
 
  private:
-  struct Heading {
-    std::uint32_t time_boot_ms = 0;
-    double heading_rad = 0.0;
-  };
-
   Duration heartbeat_timeout_;
   AutopilotState last_;  ///< but for what depends on the time it is asked for
   std::optional<Time> heartbeat_arrival_;
   std::optional<Time> position_arrival_;
   std::optional<Time> attitude_arrival_;
   AutopilotClock clock_;
-  std::optional<Heading> heading_;
+  std::optional<AttitudeMessage> attitude_;
   RingBuffer<AutopilotPose> poses_;
   AutopilotMonitorCounters counters_;
 };

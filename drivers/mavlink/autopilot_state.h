@@ -19,6 +19,9 @@ struct AutopilotPose {
   Time stamp{};  ///< on our timeline
   Vec3 position_NED_m = Vec3::Zero();
   double heading_rad = 0.0;  ///< clockwise from north
+  Vec3 velocity_NED_m_s = Vec3::Zero();
+  Quat R_NED_FRD = Quat::Identity();
+  Vec3 angular_rate_FRD_rad_s = Vec3::Zero();
 };
 
 /// What is known of the autopilot at one moment.

@@ -187,6 +187,7 @@ std::optional<AttitudeMessage> fromJson(std::string_view fields) {
   message.R_NED_FRD.w() = w;
   if (!(std::abs(message.R_NED_FRD.norm() - 1.0) <= kUnitNormTolerance)) return std::nullopt;
   message.R_NED_FRD.normalize();
+  message.angular_rate_FRD_rad_s = reader.vector("rollspeed", "pitchspeed", "yawspeed");
   return reader.finish(message);
 }
 

@@ -18,7 +18,8 @@ constexpr HeartbeatMessage kCopterGuided{3, 1, 4};
 AutopilotMonitor monitor() { return AutopilotMonitor(3s); }
 
 AttitudeMessage facing(double heading_rad, std::uint32_t ms) {
-  return {ms, Quat(Eigen::AngleAxisd(heading_rad, Vec3::UnitZ())) * Quat(Eigen::AngleAxisd(0.6, Vec3::UnitY()))};
+  return {ms, Quat(Eigen::AngleAxisd(heading_rad, Vec3::UnitZ())) * Quat(Eigen::AngleAxisd(0.6, Vec3::UnitY())),
+          Vec3::Zero()};
 }
 
 TEST(AutopilotMonitor, HasNotHeardOfAnAutopilotAtFirst) {
@@ -87,6 +88,20 @@ TEST(AutopilotMonitor, JoinsPositionAndAttitude) {
   EXPECT_FALSE(monitor.takePose());
   EXPECT_EQ(monitor.state(kStart + 100ms).position_age, 39ms);
   EXPECT_EQ(monitor.state(kStart + 100ms).attitude_age, 90ms);
+}
+
+TEST(AutopilotMonitor, BringsTheAttitudeToThePositionsMoment) {
+  AutopilotMonitor monitor = nanomap::monitor();
+  AttitudeMessage attitude = facing(0.5, 1000);
+  attitude.angular_rate_FRD_rad_s = attitude.R_NED_FRD.conjugate() * Vec3(0.0, 0.0, 1.5);  // about the vertical
+  monitor.receive(attitude, kStart);
+  monitor.receive({1020, Vec3::Zero(), {4.0, -3.0, 1.0}}, kStart + 20ms);
+  const auto pose = monitor.takePose();
+  ASSERT_TRUE(pose);
+  EXPECT_NEAR(pose->heading_rad, 0.5 + 1.5 * 0.02, 1e-12);
+  EXPECT_TRUE(pose->R_NED_FRD.isApprox(facing(0.53, 0).R_NED_FRD, 1e-12));
+  EXPECT_EQ(pose->angular_rate_FRD_rad_s, attitude.angular_rate_FRD_rad_s);
+  EXPECT_EQ(pose->velocity_NED_m_s, Vec3(4.0, -3.0, 1.0));
 }
 
 TEST(AutopilotMonitor, DropsTheOldestPosesThatNobodyTakes) {

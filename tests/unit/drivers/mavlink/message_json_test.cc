@@ -15,7 +15,7 @@ using nlohmann::json;
 constexpr const char* kHeartbeat =
     R"({"message_id":0,"autopilot":12,"base_mode":209,"custom_mode":393216,"mavlink_version":3,"type":2})";
 constexpr const char* kPosition = R"({"time_boot_ms":4294967295,"x":1.5,"y":-2.5,"z":3,"vx":0.1,"vy":0.2,"vz":-0.3})";
-constexpr const char* kAttitude = R"({"time_boot_ms":7,"q1":0.6,"q2":0.0,"q3":0,"q4":0.8,"rollspeed":null})";
+constexpr const char* kAttitude = R"({"time_boot_ms":7,"q1":0.6,"q2":0.0,"q3":0,"q4":0.8,"rollspeed":0.5,"pitchspeed":-2,"yawspeed":1e-3})";
 
 /// `fields` with one of them set to something else.
 std::string with(const char* fields, const char* name, const json& value) {
@@ -44,6 +44,7 @@ TEST(MessageJson, ReadsAttitudes) {
   const auto message = fromJson<AttitudeMessage>(kAttitude);
   ASSERT_TRUE(message);
   EXPECT_TRUE(message->R_NED_FRD.isApprox(Quat(0.6, 0.0, 0.0, 0.8)));
+  EXPECT_EQ(message->angular_rate_FRD_rad_s, Vec3(0.5, -2.0, 1e-3));
 }
 
 TEST(MessageJson, RefusesFieldsThatCannotBe) {
