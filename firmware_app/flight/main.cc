@@ -1,10 +1,7 @@
 #include <fmt/format.h>
-#include <pthread.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
-#include <ctime>
 #include <exception>
 #include <memory>
 #include <stdexcept>
@@ -21,6 +18,7 @@
 #include "firmware_app/flight/process_clock.h"
 #include "firmware_app/flight/surroundings.h"
 #include "firmware_app/health/health_monitor.h"
+#include "firmware_app/supervision/end_signals.h"
 #include "firmware_app/supervision/service_manager.h"
 
 namespace nanomap {
@@ -31,27 +29,6 @@ constexpr Duration kRound = std::chrono::milliseconds(100);
 
 /// What is still under way when a log has ended needs no longer.
 constexpr Duration kAfterTheEnd = std::chrono::seconds(1);
-
-/// Signals that end the process, taken by this thread and no other.
-class EndSignals {
- public:
-  EndSignals() {
-    sigemptyset(&set_);
-    sigaddset(&set_, SIGINT);
-    sigaddset(&set_, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &set_, nullptr);
-  }
-
-  /// Waits for one at most this long.
-  [[nodiscard]] bool wait(Duration at_most) const {
-    const auto whole_s = std::chrono::duration_cast<std::chrono::seconds>(at_most);
-    const timespec timeout{whole_s.count(), (at_most - whole_s).count()};
-    return sigtimedwait(&set_, nullptr, &timeout) > 0;
-  }
-
- private:
-  sigset_t set_{};
-};
 
 std::vector<std::string> channelsOf(const LcmParameters& lcm) {
   std::vector<std::string> channels;
