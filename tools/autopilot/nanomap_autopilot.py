@@ -1,9 +1,10 @@
-"""An autopilot to test a companion against: a point mass under PX4's OFFBOARD or ArduCopter's GUIDED rules.
+"""An autopilot to test a companion against: a multicopter under PX4's OFFBOARD or ArduCopter's GUIDED rules.
 
 What it receives and decides it prints, one JSON object a line, beginning with its URL. Its pilot sits at the standard
 input; the program ends with it:
   mode NAME            switch the mode; PX4 refuses OFFBOARD without a stream of setpoints
   arm | disarm
+  takeoff ALTITUDE     go straight up to so many m above the ground and hold there; it must be armed
   telemetry on | off   "off" is a link that has gone dead
   shift N E D YAW      its estimate is corrected by so many m and rad
   state                print where the vehicle is
@@ -17,6 +18,7 @@ import select
 import sys
 import time
 
+import numpy as np
 import telemetry as streams
 from flight_rules import RULES
 from pymavlink.dialects.v20 import common as mavlink
@@ -38,39 +40,62 @@ def plain(value):
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-class Autopilot:
-    def __init__(self, rules_name: str, loss_s: float | None, transport):
-        rules, usual_loss_s = RULES[rules_name]
-        self.rules = rules(usual_loss_s if loss_s is None else loss_s)
-        self.vehicle = Vehicle()
-        self.mode = next(iter(self.rules.MODES))
-        self.armed = False
-        self._transport = transport
-        self._start = time.monotonic()
-        self._target = None
-        self._hold_at = list(self.vehicle.position)
-        self._telemetry_on = True
-        self._link = mavlink.MAVLink(transport, srcSystem=1, srcComponent=mavlink.MAV_COMP_ID_AUTOPILOT1)
+class Endpoint:
+    """One who is told and listened to."""
+
+    def __init__(self, transport, rules_name: str, true: bool):
+        self.transport = transport
+        self.link = mavlink.MAVLink(transport, srcSystem=1, srcComponent=mavlink.MAV_COMP_ID_AUTOPILOT1)
+        self.telemetry = streams.Telemetry(self.link, rules_name, true)
         self._parser = mavlink.MAVLink(None)
         self._parser.robust_parsing = True
-        self._telemetry = streams.Telemetry(self._link, rules_name)
+
+    def fileno(self) -> int:
+        return self.transport.fileno()
+
+    def messages(self) -> list:
+        return self._parser.parse_buffer(self.transport.read()) or []
+
+
+class Autopilot:
+    def __init__(self, rules_name: str, loss_s: float | None, vehicle: Vehicle, transport, truth_transport=None):
+        """`truth_transport` leads to who is told where the vehicle really is; it commands nothing."""
+        rules, usual_loss_s = RULES[rules_name]
+        self.rules = rules(usual_loss_s if loss_s is None else loss_s)
+        self.vehicle = vehicle
+        self.mode = next(iter(self.rules.MODES))
+        self.armed = not vehicle.body.landed
+        self._start = time.monotonic()
+        self._target = None
+        self._telemetry_on = True
+        self._companion = Endpoint(transport, rules_name, true=False)
+        self._endpoints = [self._companion]
+        if truth_transport:
+            self._endpoints.append(Endpoint(truth_transport, rules_name, true=True))
         self._stepped = self._start
 
-    def boot_ms(self, now: float) -> int:
-        return int((now - self._start) * 1000)
+    def boot_ms(self) -> int:
+        """Of the moment that the vehicle's motion has been computed for."""
+        return round((self._stepped - self._start) * 1000)
 
     def run(self) -> None:
-        tell("ready", url=self._transport.url, boot_s=self._start)
+        tell("ready", url=self._companion.transport.url, boot_s=self._start)
         pilot = PilotLines()
         while not pilot.gone:
-            for message in self._parser.parse_buffer(self._transport.wait(STEP_S)) or []:
-                self._receive(message)
-            for line in pilot.lines():
-                self._obey(line.split())
+            due_s = max(0.0, self._stepped + STEP_S - time.monotonic())
+            readable, _, _ = select.select([*self._endpoints, pilot], [], [], due_s)
+            for endpoint in self._endpoints:
+                if endpoint in readable:
+                    for message in endpoint.messages():
+                        self._receive(message, endpoint)
+            if pilot in readable:
+                for line in pilot.lines():
+                    self._obey(line.split())
             now = time.monotonic()
             self._step(now)
-            if self._telemetry_on:
-                self._telemetry.send_due(now, self)
+            for endpoint in self._endpoints:
+                if self._telemetry_on or endpoint is not self._companion:
+                    endpoint.telemetry.send_due(now, self)
 
     def _switch(self, mode: str, why: str) -> bool:
         now = time.monotonic()
@@ -78,10 +103,14 @@ class Autopilot:
             tell("refused", mode=mode)
             return False
         self.mode = mode
-        self._hold_at = list(self.vehicle.position)
-        self._telemetry.send_now(streams.HEARTBEAT)
+        self.vehicle.stop_here()
+        self._announce()
         tell("mode", mode=mode, why=why)
         return True
+
+    def _announce(self) -> None:
+        for endpoint in self._endpoints:
+            endpoint.telemetry.send_now(streams.HEARTBEAT)
 
     def _obey(self, words: list[str]) -> None:
         match words:
@@ -89,37 +118,41 @@ class Autopilot:
                 self._switch(mode, "pilot")
             case ["arm" | "disarm" as order]:
                 self.armed = order == "arm"
-                self._telemetry.send_now(streams.HEARTBEAT)
+                self._announce()
+            case ["takeoff", altitude] if self.armed:
+                self.vehicle.take_off(float(altitude))
             case ["telemetry", "on" | "off" as order]:
                 self._telemetry_on = order == "on"
             case ["shift", *numbers] if len(numbers) == 4:
                 *shift, turn = map(float, numbers)
-                self.vehicle.shift = [a + b for a, b in zip(self.vehicle.shift, shift)]
+                self.vehicle.shift = self.vehicle.shift + np.array(shift)
                 self.vehicle.turn_rad += turn
             case ["state"]:
-                tell("state", mode=self.mode, armed=self.armed, position=self.vehicle.told_position(),
-                     velocity=self.vehicle.velocity, yaw_rad=self.vehicle.told_yaw_rad())
+                body = self.vehicle.body
+                tell("state", mode=self.mode, armed=self.armed, position=body.position.tolist(),
+                     velocity=body.velocity.tolist(), yaw_rad=body.yaw_rad)
             case _:
                 tell("unknown", line=" ".join(words))
 
-    def _receive(self, message) -> None:
+    def _receive(self, message, endpoint: Endpoint) -> None:
         name = message.get_type()
-        if name in TOLD:
+        companion = endpoint is self._companion
+        if name in TOLD and companion:
             fields = {key: plain(value) for key, value in message.to_dict().items() if key != "mavpackettype"}
             tell("message", name=name, system=message.get_srcSystem(), component=message.get_srcComponent(),
                  fields=fields)
-        if name == "SET_POSITION_TARGET_LOCAL_NED":
+        if name == "SET_POSITION_TARGET_LOCAL_NED" and companion:
             self._target = message
             self.rules.setpoint(time.monotonic())
         elif name == "COMMAND_LONG":
-            self._command(message)
+            self._command(message, endpoint)
         elif name == "TIMESYNC" and message.tc1 == 0:
-            self._link.timesync_send(time.monotonic_ns(), message.ts1)
+            endpoint.link.timesync_send(time.monotonic_ns(), message.ts1)
 
-    def _command(self, command) -> None:
+    def _command(self, command, endpoint: Endpoint) -> None:
         result = mavlink.MAV_RESULT_UNSUPPORTED
         if command.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
-            if self._telemetry.set_interval(int(command.param1), command.param2 * 1e-6):
+            if endpoint.telemetry.set_interval(int(command.param1), command.param2 * 1e-6):
                 result = mavlink.MAV_RESULT_ACCEPTED
         elif command.command == mavlink.MAV_CMD_DO_SET_MODE:
             wanted = self.rules.custom_mode_of(command)
@@ -130,8 +163,8 @@ class Autopilot:
             self.armed = command.param1 > 0.5
             tell("armed", armed=self.armed, why="command")
             result = mavlink.MAV_RESULT_ACCEPTED
-        self._link.command_ack_send(command.command, result, 0, 0, command.get_srcSystem(),
-                                    command.get_srcComponent())
+        endpoint.link.command_ack_send(command.command, result, 0, 0, command.get_srcSystem(),
+                                       command.get_srcComponent())
 
     def _step(self, now: float) -> None:
         external = self.mode == self.rules.EXTERNAL
@@ -144,9 +177,9 @@ class Autopilot:
                 self.vehicle.stand()
             elif external and not lost and self._target:
                 self.vehicle.follow(self._target, STEP_S)
-                self._hold_at = list(self.vehicle.position)
+                self.vehicle.stop_here()
             else:
-                self.vehicle.hold(self._hold_at, STEP_S)
+                self.vehicle.hold(STEP_S)
 
 
 class PilotLines:
@@ -156,9 +189,10 @@ class PilotLines:
         self.gone = False
         self._rest = b""
 
+    def fileno(self) -> int:
+        return sys.stdin.fileno()
+
     def lines(self) -> list[str]:
-        if not select.select([sys.stdin], [], [], 0)[0]:
-            return []
         data = os.read(sys.stdin.fileno(), 4096)
         self.gone = not data
         *whole, self._rest = (self._rest + data).split(b"\n")
@@ -173,9 +207,15 @@ def main() -> None:
     wire.add_argument("--udp", type=int, metavar="PORT", help="send to a companion that listens at this port")
     wire.add_argument("--tcp", action="store_true", help="listen for a companion")
     wire.add_argument("--serial", action="store_true", help="be the far end of a serial line")
+    parser.add_argument("--truth-udp", type=int, metavar="PORT",
+                        help="send to a simulator of the sensors, that listens at this port, where the vehicle really is")
+    parser.add_argument("--altitude", type=float, default=0.0, metavar="M", help="begin armed, hovering at it")
+    parser.add_argument("--heading", type=float, default=0.0, metavar="DEG", help="begin so, clockwise from north")
     arguments = parser.parse_args()
     transport = Udp(arguments.udp) if arguments.udp else Tcp() if arguments.tcp else Serial()
-    Autopilot(arguments.rules, arguments.loss, transport).run()
+    truth_transport = Udp(arguments.truth_udp) if arguments.truth_udp else None
+    vehicle = Vehicle(arguments.altitude, math.radians(arguments.heading))
+    Autopilot(arguments.rules, arguments.loss, vehicle, transport, truth_transport).run()
 
 
 if __name__ == "__main__":

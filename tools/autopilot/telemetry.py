@@ -1,7 +1,8 @@
-"""Streams what an autopilot tells its companion, each message at its own interval."""
+"""Streams what an autopilot tells, each message at its own interval."""
 
-import math
+from collections.abc import Callable
 
+from multicopter import quaternion, turned
 from pymavlink.dialects.v20 import common as mavlink
 
 HEARTBEAT = mavlink.MAVLINK_MSG_ID_HEARTBEAT
@@ -18,12 +19,15 @@ UNASKED_INTERVAL_S = {
 
 
 class Telemetry:
-    def __init__(self, link: mavlink.MAVLink, rules_name: str):
+    def __init__(self, link: mavlink.MAVLink, rules_name: str, true: bool):
+        """`true`: where the vehicle is, not where its estimator believes that it is."""
         self._link = link
+        self._true = true
         self._interval_s = dict(UNASKED_INTERVAL_S[rules_name])
         self._due: dict[int, float] = {}
-        self._senders = {HEARTBEAT: self._heartbeat, TIMESYNC: self._timesync, ATTITUDE: self._attitude,
-                         POSITION: self._position, LANDED: self._landed}
+        self._senders: dict[int, Callable] = {HEARTBEAT: self._heartbeat, TIMESYNC: self._timesync,
+                                              ATTITUDE: self._attitude, POSITION: self._position,
+                                              LANDED: self._landed}
 
     def set_interval(self, message_id: int, interval_s: float) -> bool:
         """False for a message that is not to be had."""
@@ -54,13 +58,16 @@ class Telemetry:
         self._link.timesync_send(0, int(now * 1e9))
 
     def _attitude(self, now: float, autopilot) -> None:
-        half = autopilot.vehicle.told_yaw_rad() / 2
-        self._link.attitude_quaternion_send(autopilot.boot_ms(now), math.cos(half), 0, 0, math.sin(half), 0, 0, 0)
+        vehicle = autopilot.vehicle
+        rotation = vehicle.body.axes() if self._true else turned(vehicle.body.axes(), vehicle.turn_rad)
+        self._link.attitude_quaternion_send(autopilot.boot_ms(), *quaternion(rotation), *vehicle.body.rates)
 
     def _position(self, now: float, autopilot) -> None:
         vehicle = autopilot.vehicle
-        self._link.local_position_ned_send(autopilot.boot_ms(now), *vehicle.told_position(), *vehicle.velocity)
+        position = vehicle.body.position if self._true else vehicle.told_position()
+        self._link.local_position_ned_send(autopilot.boot_ms(), *position, *vehicle.body.velocity)
 
     def _landed(self, now: float, autopilot) -> None:
-        state = mavlink.MAV_LANDED_STATE_ON_GROUND if autopilot.vehicle.landed else mavlink.MAV_LANDED_STATE_IN_AIR
+        landed = autopilot.vehicle.body.landed
+        state = mavlink.MAV_LANDED_STATE_ON_GROUND if landed else mavlink.MAV_LANDED_STATE_IN_AIR
         self._link.extended_sys_state_send(mavlink.MAV_VTOL_STATE_UNDEFINED, state)

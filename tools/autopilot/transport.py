@@ -1,8 +1,10 @@
-"""The wires that the autopilot can be reached by. Each has a `url`, as MAVSDK takes it, under which to reach it."""
+"""The wires that the autopilot can be reached by.
+
+Each has a `url`, as MAVSDK takes it, under which to reach it, and a `fileno` that is readable when read() has something.
+"""
 
 import os
 import pty
-import select
 import socket
 import tty
 
@@ -19,12 +21,13 @@ class Udp:
         self._peer = ("127.0.0.1", peer_port)
         self.url = f"udpin://127.0.0.1:{peer_port}"
 
-    def wait(self, seconds: float) -> bytes:
-        if not select.select([self._socket], [], [], seconds)[0]:
-            return b""
+    def fileno(self) -> int:
+        return self._socket.fileno()
+
+    def read(self) -> bytes:
         try:
             return self._socket.recv(MAX_READ_BYTES)
-        except ConnectionRefusedError:  # nobody listens yet
+        except (BlockingIOError, ConnectionRefusedError):  # nothing there, or nobody listens yet
             return b""
 
     def write(self, data: bytes) -> None:
@@ -42,10 +45,10 @@ class Tcp:
         self._peer: socket.socket | None = None
         self.url = f"tcpout://127.0.0.1:{self._listener.getsockname()[1]}"
 
-    def wait(self, seconds: float) -> bytes:
-        ready = select.select([self._peer or self._listener], [], [], seconds)[0]
-        if not ready:
-            return b""
+    def fileno(self) -> int:
+        return (self._peer or self._listener).fileno()
+
+    def read(self) -> bytes:
         if self._peer is None:
             self._peer = self._listener.accept()[0]
             return b""
@@ -82,8 +85,11 @@ class Serial:
         self._theirs = theirs  # kept open, so that the line lives on when the companion hangs up
         self.url = f"serial://{os.ttyname(theirs)}:{self.BAUD}"
 
-    def wait(self, seconds: float) -> bytes:
-        return os.read(self._ours, MAX_READ_BYTES) if select.select([self._ours], [], [], seconds)[0] else b""
+    def fileno(self) -> int:
+        return self._ours
+
+    def read(self) -> bytes:
+        return os.read(self._ours, MAX_READ_BYTES)
 
     def write(self, data: bytes) -> None:
         try:
