@@ -10,16 +10,19 @@ namespace {
 
 constexpr std::uint32_t kFlightStream = 1;
 
-/// Follows a path, whatever the sensors say.
+/// Follows a path, whatever the sensors say, and records that.
 class PathFlyer : public Flyer {
  public:
-  PathFlyer(const simulation::FlightPath& path, Time start) : path_(path), start_(start) {}
+  PathFlyer(const simulation::FlightPath& path, LogWriter& log) : path_(path), log_(log) {}
 
-  [[nodiscard]] simulation::VehicleState at(Time stamp) override { return path_.at(stamp - start_); }
+  [[nodiscard]] simulation::VehicleState at(Time stamp) override { return path_.at(stamp - SensedFlight::kStart); }
+  void onArrival(const std::string& channel, Time arrival, Bytes message) override {
+    log_.writeEncoded(channel, arrival, message);
+  }
 
  private:
   const simulation::FlightPath& path_;
-  Time start_;
+  LogWriter& log_;
 };
 
 const FlightLogOptions& checked(const FlightLogOptions& options) {
@@ -44,8 +47,8 @@ FlightLog::FlightLog(const FlightLogOptions& options)
       duration_(options.duration.value_or(path_.duration())) {}
 
 SensedFlightSummary FlightLog::write(const LcmParameters& channels, LogWriter& log) const {
-  PathFlyer flyer(path_, sensed_.options().start);
-  return sensed_.record(channels, duration_, flyer, log);
+  PathFlyer flyer(path_, log);
+  return sensed_.fly(channels, SensedFlight::kStart, duration_, flyer);
 }
 
 }  // namespace nanomap::generate

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/time.h"
+#include "drivers/recording/log_writer.h"
 #include "tools/generate/sensed_flight.h"
 #include "tools/simulation/flight_path.h"
 

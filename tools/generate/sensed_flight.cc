@@ -68,12 +68,11 @@ SensedFlightOptions checked(SensedFlightOptions options) {
   return options;
 }
 
-/// Records one flight: the state that advances while it lasts.
-class Recording {
+/// One flight: the state that advances while it lasts.
+class Sensing {
  public:
-  Recording(const SensedFlightOptions& options, const LcmParameters& channels, simulation::VioSimulator vio,
-            Flyer& flyer, LogWriter& log)
-      : options_(options), channels_(channels), vio_(std::move(vio)), flyer_(flyer), log_(log) {}
+  Sensing(const SensedFlightOptions& options, const LcmParameters& channels, simulation::VioSimulator vio, Flyer& flyer)
+      : options_(options), channels_(channels), vio_(std::move(vio)), flyer_(flyer) {}
 
   void addCamera(Time stamp) {
     queue_.add(channels_.camera_channel, stamp, toMessage(options_.camera, SensedFlight::kCameraName, stamp));
@@ -89,15 +88,16 @@ class Recording {
     queue_.add(channels_.goal_channel, stamp, goal);
   }
 
-  void addPose(Time stamp, const simulation::Scene& scene) {
+  /// @param told  or does the estimator keep it for itself?
+  void addPose(Time stamp, const simulation::Scene& scene, bool told) {
     const VehicleState truth = flyer_.at(stamp);
     const VioEstimate estimate = vio_.estimate(stamp, truth);
     flyer_.onEstimate(estimate);
     const Time arrival = stamp + options_.pose_latency;
     BodyMotion motion{estimate.velocity_W_m_s, truth.angular_rate_B_rad_s, truth.acceleration_W_m_s2};
-    if (options_.pose_type == PoseType::kBodyPose) {
+    if (told && options_.pose_type == PoseType::kBodyPose) {
       queue_.add(channels_.pose_channel, arrival, toMessage(estimate.pose, motion));
-    } else {
+    } else if (told) {
       queue_.add(channels_.pose_channel, arrival, toPoseMessage(estimate.pose, channels_.pose_t_body));
     }
     motion.velocity_W_m_s = truth.velocity_W_m_s;
@@ -129,7 +129,7 @@ class Recording {
     queue_.add(channels_.correction_channel, computed, toMessage(vio_.correct(), computed));
   }
 
-  void jump() { vio_.jump(options_.jump_m); }
+  void jump(double distance_m) { vio_.jump(distance_m); }
 
   /// Everything that will be added from now on arrives at `time` or later.
   void deliverUntil(Time time) { queue_.deliverUntil(time, deliver()); }
@@ -144,7 +144,6 @@ class Recording {
  private:
   [[nodiscard]] ArrivalQueue::Deliver deliver() {
     return [this](const std::string& channel, Time arrival, Bytes message) {
-      log_.writeEncoded(channel, arrival, message);
       flyer_.onArrival(channel, arrival, message);
     };
   }
@@ -153,7 +152,6 @@ class Recording {
   const LcmParameters& channels_;
   simulation::VioSimulator vio_;
   Flyer& flyer_;
-  LogWriter& log_;
   ArrivalQueue queue_;
   SensedFlightSummary summary_{.messages = {}, .min_clearance_m = std::numeric_limits<double>::infinity()};
   std::optional<Vec3> last_position_W_;
@@ -171,45 +169,47 @@ SensedFlight::SensedFlight(SensedFlightOptions options)
       sensor_(camera_, options_.sensor, derivedSeed(options_.seed, kSensorStream)),
       vio_(options_.vio, derivedSeed(options_.seed, kVioStream)) {}
 
-SensedFlightSummary SensedFlight::record(const LcmParameters& channels, Duration duration, Flyer& flyer,
-                                         LogWriter& log) const {
+SensedFlightSummary SensedFlight::fly(const LcmParameters& channels, Time start, Duration duration,
+                                      Flyer& flyer) const {
   constexpr double kAnnouncements_hz = 1.0;  // camera and goal, for who joins late
-  const Time end = options_.start + duration;
-  Recording recording(options_, channels, vio_, flyer, log);
-  Ticker announcements(options_.start, kAnnouncements_hz);
-  Ticker poses(options_.start, 1.0 / toSeconds(options_.vio.period));
-  Ticker images(options_.start, options_.depth_hz);
-  Ticker corrections(options_.start, options_.correction_hz);
+  const Time end = start + duration;
+  Sensing sensing(options_, channels, vio_, flyer);
+  Ticker announcements(start, kAnnouncements_hz);
+  Ticker poses(start, 1.0 / toSeconds(options_.vio.period));
+  Ticker images(start, options_.depth_hz);
+  Ticker corrections(start, options_.correction_hz);
   corrections.advance();  // no window at the start
-  Time jump = options_.jump_m > 0.0 ? options_.start + duration / 2 : Time::max();
+  Time jump = options_.jump_m > 0.0 ? start + duration / 2 : Time::max();
   for (;;) {
     const Time now = std::min({announcements.next(), poses.next(), images.next(), corrections.next()});
     if (now >= end) break;
-    recording.deliverUntil(now);
+    sensing.deliverUntil(now);
     if (flyer.isDone()) break;
     if (now >= jump) {
-      recording.jump();
+      sensing.jump(options_.jump_m);
       jump = Time::max();
     }
+    const SensorFaults faults = flyer.faultsAt(now);
+    if (faults.jump_m > 0.0) sensing.jump(faults.jump_m);
     if (announcements.next() == now) {
-      recording.addCamera(now);
-      recording.addGoal(now, scene_, announcements.count());
+      sensing.addCamera(now);
+      sensing.addGoal(now, scene_, announcements.count());
       announcements.advance();
     }
     if (poses.next() == now) {
-      recording.addPose(now, scene_);
+      sensing.addPose(now, scene_, !faults.estimator_off);
       poses.advance();
     }
     if (images.next() == now) {
-      recording.addDepth(now, images.count(), camera_, ray_caster_, sensor_);
+      if (!faults.camera_off) sensing.addDepth(now, images.count(), camera_, ray_caster_, sensor_);
       images.advance();
     }
     if (corrections.next() == now) {
-      recording.addCorrection(now);
+      if (!faults.estimator_off) sensing.addCorrection(now);
       corrections.advance();
     }
   }
-  return recording.finish();
+  return sensing.finish();
 }
 
 }  // namespace nanomap::generate

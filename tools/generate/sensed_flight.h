@@ -7,8 +7,8 @@
 
 #include "core/camera_model.h"
 #include "core/time.h"
+#include "drivers/lcm/byte_cursor.h"
 #include "drivers/lcm/convert.h"
-#include "drivers/recording/log_writer.h"
 #include "firmware_app/configuration/configuration.h"
 #include "tools/simulation/depth_sensor.h"
 #include "tools/simulation/ray_caster.h"
@@ -27,8 +27,7 @@ enum class PoseType {
 struct SensedFlightOptions {
   std::string scene = "forest";
   std::uint64_t seed = 1;
-  Time start = timeFromNanoseconds(1'700'000'000'650'000'000);  ///< so that even a short log crosses a second boundary
-  double goal_speed_m_s = 7.0;                                  ///< top speed that comes with the goal
+  double goal_speed_m_s = 7.0;  ///< top speed that comes with the goal
 
   CameraParameters camera;  ///< as in tools/generate/paper_camera.h, say
   double depth_hz = 30.0;
@@ -44,7 +43,14 @@ struct SensedFlightOptions {
   double jump_m = 0.0;                                         ///< how far the estimator's world jumps once; 0: not
 };
 
-/// What was recorded.
+/// What befalls the sensors at one moment.
+struct SensorFaults {
+  bool camera_off = false;
+  bool estimator_off = false;  ///< tells neither poses nor corrections, but does not forget
+  double jump_m = 0.0;         ///< the estimator's world jumps by so much now; 0: not
+};
+
+/// What was sensed.
 struct SensedFlightSummary {
   std::map<std::string, std::uint64_t> messages;  ///< by channel
   double depth_share = 0.0;                       ///< of all pixels, those with a return
@@ -53,7 +59,7 @@ struct SensedFlightSummary {
   double final_error_m = 0.0;    ///< of the last pose
 };
 
-/// Who flies while the sensors are recorded. Stamps and arrivals never decrease.
+/// Who flies while the sensors look. Stamps and arrivals never decrease.
 class Flyer {
  public:
   Flyer() = default;
@@ -67,20 +73,25 @@ class Flyer {
   /// What the estimator makes of it, each time it does: the autopilot has it at once.
   virtual void onEstimate(const simulation::VioEstimate& /*estimate*/) {}
 
-  /// A message, when it arrives; it has been recorded.
-  virtual void onArrival(const std::string& /*channel*/, Time /*arrival*/, Bytes /*message*/) {}
+  /// A message, when it arrives.
+  virtual void onArrival(const std::string& channel, Time arrival, Bytes message) = 0;
 
-  /// Nothing more is to be recorded.
+  /// Asked once for every moment at which a sensor is due.
+  [[nodiscard]] virtual SensorFaults faultsAt(Time /*stamp*/) { return {}; }
+
+  /// Nothing more is to be sensed.
   [[nodiscard]] virtual bool isDone() const { return false; }
 };
 
 /// What sensors and estimator say while a vehicle flies through a simulated scene: every message at the time it would
-/// have arrived, in that order. The same options and the same flight write the same bytes.
+/// have arrived, in that order. The same options and the same flight give the same bytes.
 /// Threads: one.
 class SensedFlight {
  public:
   static constexpr const char* kTruthChannel = "TRUTH_POSE_BODY";
   static constexpr const char* kCameraName = "depth";
+  /// Where a simulated timeline begins: even a short flight crosses a second boundary.
+  static constexpr Time kStart = timeFromNanoseconds(1'700'000'000'650'000'000);
 
   /// @throws std::exception with a message that names the option at fault
   explicit SensedFlight(SensedFlightOptions options);
@@ -90,9 +101,10 @@ class SensedFlight {
   [[nodiscard]] const SensedFlightOptions& options() const { return options_; }
   [[nodiscard]] const simulation::Scene& scene() const { return scene_; }
 
-  /// Records for `duration`, or until the flyer is done. The estimator's world jumps halfway through `duration`.
-  /// @throws LogError if the log cannot be written
-  SensedFlightSummary record(const LcmParameters& channels, Duration duration, Flyer& flyer, LogWriter& log) const;
+  /// Flies for `duration`, or until the flyer is done. The estimator's world jumps halfway through `duration`.
+  /// @param start  a whole microsecond
+  /// @throws what the flyer throws
+  SensedFlightSummary fly(const LcmParameters& channels, Time start, Duration duration, Flyer& flyer) const;
 
  private:
   SensedFlightOptions options_;

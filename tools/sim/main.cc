@@ -3,89 +3,107 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
+#include <numbers>
+#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "firmware_app/configuration/load.h"
-#include "tools/generate/paper_camera.h"
+#include "firmware_app/supervision/end_signals.h"
 #include "tools/replay/plan_summary.h"
+#include "tools/sim/arguments.h"
+#include "tools/sim/live_flight.h"
 #include "tools/sim/planned_flyer.h"
-#include "tools/simulation/scene_catalogue.h"
 
 namespace nanomap::sim {
 namespace {
 
-struct Arguments {
-  std::filesystem::path log;
-  std::string config;
-  std::vector<std::string> overrides;
-  generate::SensedFlightOptions options;
-  double duration_s = 120.0;
-  double drift_5s_m = 0.2;
-};
-
-void addOptions(CLI::App& app, Arguments& arguments) {
-  generate::SensedFlightOptions& options = arguments.options;
-  app.option_defaults()->take_last();
-  app.add_option("--out", arguments.log,
-                 "LCM log of the flight to write, decisions included; an existing one is replaced")
-      ->required();
-  app.add_option("--scene", options.scene, "What to fly through")
-      ->capture_default_str()
-      ->check(CLI::IsMember(std::vector<std::string>(simulation::kSceneNames.begin(), simulation::kSceneNames.end())));
-  app.add_option("--seed", options.seed, "Draws scene, noise and drift; the same seed flies the same flight")
-      ->capture_default_str();
-  app.add_option("--speed", options.goal_speed_m_s, "Top speed that comes with the goal [m/s]")->capture_default_str();
-  app.add_option("--duration", arguments.duration_s, "Give up after [s]")->capture_default_str();
-  app.add_option("--drift-5s", arguments.drift_5s_m, "Standard deviation of position drift after 5 s, on each axis [m]")
-      ->capture_default_str();
-  app.add_option("--correction-hz", options.correction_hz, "Sliding-window corrections a second [Hz]; 0: none")
-      ->capture_default_str();
-  app.add_option("--config", arguments.config, "Configuration file; default: the defaults");
-  app.add_option("--set", arguments.overrides, "section.key=value, wins over the file; may be given again")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+std::string verdictLine(const generate::SensedFlightOptions& options, const FlightVerdict& verdict, double flown_s,
+                        double flown_m) {
+  return fmt::format("scene '{}', seed {}: {} after {:.1f} s and {:.1f} m", options.scene, options.seed,
+                     toString(verdict.outcome), flown_s, flown_m);
 }
 
-generate::SensedFlightOptions optionsOf(const Arguments& arguments) {
-  constexpr int kWidth_px = 320;
-  constexpr int kHeight_px = 240;
-  generate::SensedFlightOptions options = arguments.options;
-  options.camera = generate::paperCamera(kWidth_px, kHeight_px);
-  options.vio.drift.horizontal_std_m = arguments.drift_5s_m;
-  options.vio.drift.vertical_std_m = arguments.drift_5s_m;
-  options.vio.drift.after = std::chrono::seconds(5);
-  return options;
+std::string speedLine(const FlightVerdict& verdict, double flown_s, double flown_m) {
+  return fmt::format("speed: mean {:.2f} m/s, top {:.2f} m/s; clearance {:.2f} m or more", flown_m / flown_s,
+                     verdict.top_speed_m_s, verdict.min_clearance_m);
 }
 
-std::string summaryOf(const generate::SensedFlight& flight, const generate::SensedFlightSummary& sensed,
+double rms(double square_sum, std::uint64_t count) {
+  return count > 0 ? std::sqrt(square_sum / static_cast<double>(count)) : 0.0;
+}
+
+std::string summaryOf(const generate::SensedFlightOptions& options, const generate::SensedFlightSummary& sensed,
                       const PlannedFlightSummary& planned) {
-  const double flown_s = toSeconds(planned.end - flight.options().start);
+  const double flown_s = toSeconds(planned.end - generate::SensedFlight::kStart);
   Text text;
-  text.line("scene '{}', seed {}: {} after {:.1f} s and {:.1f} m", flight.options().scene, flight.options().seed,
-            toString(planned.outcome), flown_s, sensed.flown_m);
-  text.line("speed: mean {:.2f} m/s, top {:.2f} m/s; clearance {:.2f} m or more", sensed.flown_m / flown_s,
-            planned.top_speed_m_s, planned.min_clearance_m);
+  text.line("{}", verdictLine(options, planned, flown_s, sensed.flown_m));
+  text.line("{}", speedLine(planned, flown_s, sensed.flown_m));
   text.line("tracking error: rms {:.3f} m, max {:.3f} m; drift at the end {:.2f} m",
-            std::sqrt(planned.tracking.square_sum_m2 / static_cast<double>(planned.tracking.count)),
-            planned.tracking.worst_m, sensed.final_error_m);
+            rms(planned.tracking.square_sum_m2, planned.tracking.count), planned.tracking.worst_m,
+            sensed.final_error_m);
   writePlans(text, planned.plans);
   return text.take();
 }
 
+/// Time and speed count from the departure on.
+std::string summaryOf(const generate::SensedFlightOptions& options, const LiveFlight& flight) {
+  constexpr double kDegreesARadian = 180.0 / std::numbers::pi;
+  const LiveFlightSummary& flown = flight.flown;
+  const double flown_s = flown.departure ? toSeconds(flown.end - *flown.departure) : 0.0;
+  Text text;
+  text.line("{}", verdictLine(options, flown, flown_s, flight.sensed.flown_m));
+  if (flown.departure) text.line("{}", speedLine(flown, flown_s, flight.sensed.flown_m));
+  text.line("the vehicle's pose between those told: rms {:.1f} mm and {:.2f} degrees, max {:.1f} mm and {:.2f} degrees",
+            1e3 * rms(flown.extrapolation.square_sum_m2, flown.extrapolation.count),
+            kDegreesARadian * rms(flown.extrapolation.square_sum_rad2, flown.extrapolation.count),
+            1e3 * flown.extrapolation.worst_m, kDegreesARadian * flown.extrapolation.worst_rad);
+  text.line("drift at the end {:.2f} m; sensors late by {:.1f} ms or less; messages not sent: {}",
+            flight.sensed.final_error_m, 1e3 * toSeconds(flown.worst_lateness), flown.unpublished);
+  for (const auto& [channel, count] : flight.sensed.messages) text.line("  {:<16} {:>6}", channel, count);
+  return text.take();
+}
+
 /// @return did it arrive?
+bool runLive(const Arguments& arguments, const Configuration& configuration) {
+  const EndSignals signals;
+  bool stopped = false;
+  const generate::SensedFlight flight(sensedFlightOf(arguments));
+  LiveFlightOptions options;
+  options.autopilot_url = arguments.autopilot_url;
+  if (arguments.heading_deg) options.heading_rad = *arguments.heading_deg * std::numbers::pi / 180.0;
+  options.vehicle_radius_m = simulation::MulticopterParameters().radius_m;
+  options.duration = fromSeconds(arguments.duration_s);
+  options.faults = faultsOf(arguments);
+  options.log = arguments.log;
+  const auto tell = [](const std::string& text) {
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+  };
+  const LiveFlight flown = flyLive(configuration, flight, options, tell,
+                                   [&] { return stopped = stopped || signals.wait(Duration::zero()); });
+  fmt::print("{}", summaryOf(flight.options(), flown));
+  return flown.flown.outcome == Outcome::kAtGoal;
+}
+
+/// @return did it arrive?
+bool runInLockstep(const Arguments& arguments, const Configuration& configuration) {
+  if (!arguments.log) throw std::invalid_argument("--out LOG is missing: where to write the flight to");
+  const generate::SensedFlight flight(sensedFlightOf(arguments));
+  LogWriter log(*arguments.log);
+  PlannedFlyer flyer(configuration, flight.scene(), generate::SensedFlight::kStart, {}, faultsOf(arguments), log);
+  const generate::SensedFlightSummary sensed =
+      flight.fly(configuration.lcm, generate::SensedFlight::kStart, fromSeconds(arguments.duration_s), flyer);
+  log.close();
+  fmt::print("{}", summaryOf(flight.options(), sensed, flyer.summary()));
+  return flyer.summary().outcome == Outcome::kAtGoal;
+}
+
 bool run(const Arguments& arguments) {
   const Configuration configuration = loadConfiguration(arguments.config, arguments.overrides);
-  const generate::SensedFlight flight(optionsOf(arguments));
-  LogWriter log(arguments.log);
-  PlannedFlyer flyer(configuration, flight.scene(), flight.options().start, {}, log);
-  const generate::SensedFlightSummary sensed =
-      flight.record(configuration.lcm, fromSeconds(arguments.duration_s), flyer, log);
-  log.close();
-  fmt::print("{}", summaryOf(flight, sensed, flyer.summary()));
-  return flyer.summary().outcome == Outcome::kAtGoal;
+  return arguments.live ? runLive(arguments, configuration) : runInLockstep(arguments, configuration);
 }
 
 }  // namespace
@@ -94,6 +112,8 @@ bool run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Flies a simulated vehicle through a scene as the planner decides, in simulated time, and records the flight.\n"
+      "With --live, an autopilot flies its own vehicle: this renders what its depth camera would see and what its\n"
+      "drifting estimator would say, sends both over LCM, and judges the flight.\n"
       "Exit code 0: it stands at the goal; 2: it does not; 1: it could not be flown.",
       "nanomap-sim");
   nanomap::sim::Arguments arguments;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "drivers/lcm/convert.h"
 
@@ -13,33 +12,20 @@ double yawTowards(const Vec3& direction_W) { return std::atan2(direction_W.y(), 
 
 }  // namespace
 
-std::string_view toString(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kUnderWay:
-      return "still under way";
-    case Outcome::kAtGoal:
-      return "at the goal";
-    case Outcome::kCollision:
-      return "collision";
-  }
-  return "?";
-}
-
 PlannedFlyer::PlannedFlyer(const Configuration& configuration, const simulation::Scene& scene, Time start,
-                           const simulation::MulticopterParameters& vehicle, LogWriter& log)
+                           const simulation::MulticopterParameters& vehicle, const SensorFaultPlanParameters& faults,
+                           LogWriter& log)
     : configuration_(configuration),
-      scene_(scene),
       log_(log),
+      judge_(scene, vehicle.radius_m),
+      faults_(faults),
       pipeline_(configuration),
       horizon_(configuration.planner),
-      vehicle_radius_m_(vehicle.radius_m),
       vehicle_(vehicle, scene.mission().start_W, yawTowards(scene.mission().goal_W - scene.mission().start_W)),
       controller_({}),
       command_{Vec3::Zero(), yawTowards(scene.mission().goal_W - scene.mission().start_W)},
       hold_W_{scene.mission().start_W, Vec3::Zero(), Vec3::Zero()},
-      now_(start) {
-  summary_.min_clearance_m = std::numeric_limits<double>::infinity();
-}
+      now_(start) {}
 
 simulation::VehicleState PlannedFlyer::at(Time stamp) {
   if (stamp > now_) vehicle_.advance(command_, stamp - now_);
@@ -59,25 +45,14 @@ void PlannedFlyer::onEstimate(const simulation::VioEstimate& estimate) {
   summary_.tracking.worst_m = std::max(summary_.tracking.worst_m, error_m);
   summary_.tracking.square_sum_m2 += error_m * error_m;
   ++summary_.tracking.count;
-  summary_.end = stamp;
-  judge(vehicle_.state());
+  judge_.see(stamp, vehicle_.state(), horizon_.inForce() && horizon_.inForce()->reason == Reason::kAtGoal);
+  static_cast<FlightVerdict&>(summary_) = judge_.verdict();
 }
 
-void PlannedFlyer::judge(const simulation::VehicleState& truth) {
-  constexpr double kStandstill_m_s = 0.2;
-  const Vec3& p_W = truth.T_W_B.translation_m;
-  const double clearance_m = std::min(scene_.distanceToNearestObstacle(p_W), p_W.z());
-  summary_.min_clearance_m = std::min(summary_.min_clearance_m, clearance_m);
-  summary_.top_speed_m_s = std::max(summary_.top_speed_m_s, truth.velocity_W_m_s.norm());
-  if (clearance_m < vehicle_radius_m_) {
-    summary_.outcome = Outcome::kCollision;
-  } else if (horizon_.inForce() && horizon_.inForce()->reason == Reason::kAtGoal &&
-             truth.velocity_W_m_s.norm() < kStandstill_m_s) {
-    summary_.outcome = Outcome::kAtGoal;
-  }
-}
+generate::SensorFaults PlannedFlyer::faultsAt(Time stamp) { return faults_.at(stamp, summary_.departure); }
 
 void PlannedFlyer::onArrival(const std::string& channel, Time arrival, Bytes message) {
+  log_.writeEncoded(channel, arrival, message);
   const auto kind = pipeline_.kindOf(channel);
   if (!kind) return;
   if (pipeline_.feed(*kind, message).views_inserted > 0) plan(arrival);

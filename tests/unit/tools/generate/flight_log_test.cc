@@ -242,7 +242,7 @@ TEST_F(FlightLogTest, JumpRaisesTheEpochHalfway) {
   options.depth_hz = 1.0;
   write(options);
   const auto estimates = poses("POSE_BODY");
-  const Time middle = options.start + std::chrono::seconds(2);
+  const Time middle = SensedFlight::kStart + std::chrono::seconds(2);
   for (const auto& logged : estimates) {
     const bool after = std::get<Time>(timeFromUtime(logged.message.utime)) >= middle;
     EXPECT_EQ(logged.message.epoch, after ? 1 : 0);

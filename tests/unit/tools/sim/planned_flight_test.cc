@@ -24,7 +24,8 @@ class PlannedFlight : public testing::Test {
  protected:
   ~PlannedFlight() override { std::filesystem::remove(file_); }
 
-  Flown fly(const std::string& scene, Duration duration, const std::vector<std::string>& overrides = {}) {
+  Flown fly(const std::string& scene, Duration duration, const std::vector<std::string>& overrides = {},
+            const SensorFaultPlanParameters& faults = {}) {
     constexpr int kWidth_px = 160;  // half the paper's: a quarter of the time
     constexpr int kHeight_px = 120;
     generate::SensedFlightOptions options;
@@ -34,9 +35,9 @@ class PlannedFlight : public testing::Test {
     const generate::SensedFlight flight(options);
     const Configuration configuration = loadConfiguration("", overrides);
     LogWriter log(file_);
-    PlannedFlyer flyer(configuration, flight.scene(), options.start, {}, log);
+    PlannedFlyer flyer(configuration, flight.scene(), generate::SensedFlight::kStart, {}, faults, log);
     Flown flown;
-    flown.sensed = flight.record(configuration.lcm, duration, flyer, log);
+    flown.sensed = flight.fly(configuration.lcm, generate::SensedFlight::kStart, duration, flyer);
     log.close();
     flown.planned = flyer.summary();
     std::ifstream file(file_, std::ios::binary);
