@@ -13,7 +13,7 @@ namespace nanomap {
 enum class DecodeFault : std::uint8_t {
   kWrongType,      ///< the type's hash is another one
   kTruncated,      ///< the message ends before what its lengths announce
-  kBadLength,      ///< a negative length, a string without its terminator, or more bytes than a message can have
+  kBadLength,      ///< a negative length, a string whose first NUL is not its last byte, or more bytes than can be
   kTrailingBytes,  ///< the message goes on after its last field
 };
 inline constexpr std::size_t kDecodeFaultCount = 4;

@@ -1,5 +1,6 @@
 #include "drivers/lcm/message_layout.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -34,11 +35,12 @@ class FieldWalker {
     if (!cursor_.ok()) fail(DecodeFault::kTruncated);
   }
 
-  /// A length and the NUL-terminated text that it counts, terminator included.
+  /// A length and the NUL-terminated text that it counts, terminator included. A NUL before it would cut the text off
+  /// when it is encoded again.
   void string() {
-    const std::size_t size = count(1);
+    const Bytes text = cursor_.take(count(1));
     if (failed()) return;
-    if (size == 0 || cursor_.take(size).back() != 0) fail(DecodeFault::kBadLength);
+    if (text.empty() || std::find(text.begin(), text.end(), 0) != text.end() - 1) fail(DecodeFault::kBadLength);
   }
 
   /// A length and that many elements of fixed size.

@@ -119,6 +119,12 @@ TEST(Decode, StringWithoutTerminatorIsBad) {
   EXPECT_EQ(faultOf<camera_model_t>(bytes), DecodeFault::kBadLength);
 }
 
+TEST(Decode, StringWithAnEarlierTerminatorIsBad) {
+  Encoded bytes = cameraModel("xyz");
+  bytes[kNameLengthAt + 5] = 0;
+  EXPECT_EQ(faultOf<camera_model_t>(bytes), DecodeFault::kBadLength);
+}
+
 TEST(Decode, NegativeLengthIsBad) {
   Encoded bytes = cameraModel("x");
   for (const std::int32_t length : {-1, std::numeric_limits<std::int32_t>::min()}) {
