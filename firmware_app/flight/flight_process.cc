@@ -25,11 +25,8 @@ void timed(SlotQueue<Duration>& times, Work&& work) {
 
 }  // namespace
 
-FlightProcess::FlightProcess(const Configuration& configuration, const FlightOptions& options, MessageSource& source,
-                             AutopilotLink& link)
-    : options_(options),
-      setpoint_period_(fromSeconds(1.0 / configuration.mavlink.setpoint_rate_hz)),
-      stages_(configuration, realtimeAhead(), link) {
+FlightProcess::FlightProcess(const FlightOptions& options, MessageSource& source, Stages& stages)
+    : options_(options), setpoint_period_(fromSeconds(1.0 / options.setpoint_rate_hz)), stages_(stages) {
   const auto realtime = [&](RealtimeThread thread) {
     return ThreadSettings{std::string(toString(thread)), options_.layout[thread], kDefaultStackBytes,
                           options_.demand_realtime};

@@ -20,6 +20,7 @@ namespace nanomap {
 
 struct FlightOptions {
   ThreadLayout layout;
+  double setpoint_rate_hz = 50.0;
   bool demand_realtime = true;
   /// Told every message of a configured channel as it arrived, on the ingest's thread, before anyone else.
   std::function<void(const ReceivedMessage&, Time arrival)> on_message = [](const ReceivedMessage&, Time) {};
@@ -30,14 +31,11 @@ struct FlightOptions {
 /// inherit it.
 class FlightProcess {
  public:
-  /// Starts every thread. Borrows source and link, which must outlive it.
+  /// Starts every thread. Borrows source and stages, which must outlive it; nobody else runs the stages.
   /// @throws std::invalid_argument naming the parameter that is wrong; std::runtime_error naming what the machine
   ///         refuses and what to do
-  FlightProcess(const Configuration& configuration, const FlightOptions& options, MessageSource& source,
-                AutopilotLink& link);
+  FlightProcess(const FlightOptions& options, MessageSource& source, Stages& stages);
   ~FlightProcess();
-
-  [[nodiscard]] HandOvers& handOvers() { return stages_.hand_overs; }
 
   /// The source has nothing more, and never will.
   [[nodiscard]] bool sourceEnded() const { return source_ended_.load(std::memory_order_relaxed); }
@@ -62,7 +60,7 @@ class FlightProcess {
   FlightOptions options_;
   Duration setpoint_period_;
 
-  Stages stages_;
+  Stages& stages_;
   Time next_setpoint_{};
 
   std::atomic<bool> source_ended_{false};

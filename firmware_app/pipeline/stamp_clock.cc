@@ -7,7 +7,7 @@ namespace nanomap {
 namespace {
 
 /// From a pose's stamp to its arrival, with a log: as much as scheduling may shake it by.
-constexpr Duration kPoseDelay = std::chrono::milliseconds(10);
+constexpr Duration kPoseDelay = std::chrono::milliseconds(30);
 
 void move(Time& stamp, Duration shift) {
   constexpr Duration kLatest(std::int64_t{1} << 62);

@@ -27,7 +27,8 @@ class FlownLog {
  public:
   FlownLog(const std::filesystem::path& log, const Configuration& configuration)
       : source_(LogReader(log), channels(), 1.0, monotonicLogClock()),
-        process_(configuration, options(), source_, autopilot) {}
+        stages_(configuration, Duration::zero(), autopilot),
+        process_(options(), source_, stages_) {}
 
   /// Until the log has ended, or for this long.
   Watched watch(Duration at_most) {
@@ -62,7 +63,7 @@ class FlownLog {
   }
 
   void drain(Watched& watched) {
-    HandOvers& hand_overs = process_.handOvers();
+    HandOvers& hand_overs = stages_.hand_overs;
     while (hand_overs.setpoints.pop(
         [&](const SentSetpoint& sent) { watched.states.try_emplace(sent.verdict.state, sent.stamp); })) {
     }
@@ -74,6 +75,7 @@ class FlownLog {
   }
 
   LogSource source_;
+  Stages stages_;
   FlightProcess process_;
 };
 

@@ -1,0 +1,91 @@
+#include "firmware_app/flight/reporter.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <numeric>
+#include <utility>
+
+#include "drivers/lcm/encode.h"
+#include "firmware_app/flight/process_clock.h"
+
+namespace nanomap {
+namespace {
+
+constexpr Duration kHealthPeriod = std::chrono::seconds(1);
+constexpr Duration kRound = std::chrono::milliseconds(100);
+
+/// What is still under way when a log has ended needs no longer.
+constexpr Duration kAfterTheEnd = std::chrono::seconds(1);
+
+NamedCounters othersOf(const ReportedParts& parts) {
+  const LinkCounters link = parts.link.counters();
+  NamedCounters others{{"late setpoints", parts.process.lateSetpoints()},
+                       {"setpoints held back as stale", link.stale_setpoints},
+                       {"lcm: datagrams lost", parts.network.loss().datagrams},
+                       {"lcm: full queues", parts.network.loss().full_queues}};
+  for (const Worker* worker : parts.process.workers()) {
+    if (!worker->settings().place) continue;
+    others.emplace_back(worker->settings().name + ": page faults",
+                        static_cast<std::uint64_t>(worker->usage().faults()));
+    others.emplace_back(worker->settings().name + ": allocations", worker->allocations());
+  }
+  return others;
+}
+
+}  // namespace
+
+Reporter::Reporter(const ReportedParts& parts, std::string health_channel)
+    : parts_(parts), health_channel_(std::move(health_channel)), monitor_(parts.hand_overs) {}
+
+void Reporter::run(const EndSignals& signals) {
+  service_.ready();
+  std::optional<Time> ended;
+  Time next = processNow();
+  while (!signals.wait(kRound)) {
+    const Time now = processNow();
+    monitor_.gather();
+    const auto stalls = parts_.process.takeStalls();
+    service_.signOfLife(stalls.empty(), now);
+    if (!stalls.empty()) spdlog::error("{}", fmt::join(stalls, "; "));
+    if (now >= next) {
+      next = now + kHealthPeriod;
+      tell(now);
+    }
+    if (parts_.process.sourceEnded() && !ended) ended = now;
+    if (ended && now - *ended >= kAfterTheEnd) {
+      spdlog::info("the log has ended");
+      break;
+    }
+  }
+  service_.stopping("stopped");
+}
+
+void Reporter::tell(Time now) {
+  NamedCounters others = othersOf(parts_);
+  if (parts_.recorder != nullptr) tellOfRecording(others);
+  const health_t health = monitor_.report(now, others);
+  if (parts_.recorder != nullptr) parts_.recorder->onHealth(health);
+  if (!encodeInto(health, encoded_) || !parts_.network.publish(health_channel_, encoded_)) {
+    spdlog::warn("the health report was not sent over LCM");
+  }
+  const std::string line = statusLine(health);
+  spdlog::info("{}", line);
+  service_.setStatus(line);
+}
+
+void Reporter::tellOfRecording(NamedCounters& others) {
+  parts_.recorder->report().take([this](const RecorderReport& report) { recording_ = report; });
+  const auto& dropped = recording_.dropped;
+  others.emplace_back("recorder: dropped", std::accumulate(dropped.begin(), dropped.end(), std::uint64_t{0}));
+  others.emplace_back("recorder: lost by the disk", recording_.log.events_lost);
+  if (recording_.fault == recording_fault_told_) return;
+  recording_fault_told_ = recording_.fault;
+  if (recording_.fault.empty()) {
+    spdlog::info("recording again");
+  } else {
+    spdlog::error("not recording: {}", recording_.fault);
+  }
+}
+
+}  // namespace nanomap
