@@ -17,13 +17,14 @@
 namespace nanomap {
 
 /// Messages of any size on their way from the thread that received them to the one that records them, in a ring of
-/// bytes. Neither end waits, locks or allocates. What finds no room is dropped, which is counted.
-/// Threads: one pushes, one pops; the counter from any.
+/// bytes. Neither end waits or locks, and the first does not allocate: the second has a buffer that grows to the
+/// largest message. What finds no room is dropped, which is counted. Threads: one pushes, one pops; the counter from
+/// any.
 class MessageTap {
  public:
   /// @param messages  room for as many,
   /// @param bytes     of as many bytes in all
-  MessageTap(std::size_t messages, std::size_t bytes) : headers_(messages), bytes_(bytes) { popped_.resize(bytes); }
+  MessageTap(std::size_t messages, std::size_t bytes) : headers_(messages), bytes_(bytes) {}
 
   /// Producer. False if it was dropped; so is one whose channel no log can hold.
   bool push(std::string_view channel, Time arrival, Bytes message) {
@@ -44,6 +45,7 @@ class MessageTap {
   template <class Use>
   bool pop(Use&& use) {
     return headers_.pop([&](const Header& header) {
+      if (popped_.size() < header.message_bytes) popped_.resize(header.message_bytes);
       bytes_.pop(popped_.data(), header.message_bytes);
       use(std::string_view(header.channel.data(), header.channel_bytes), header.arrival,
           Bytes(popped_).first(header.message_bytes));
