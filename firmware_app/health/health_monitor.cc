@@ -129,6 +129,7 @@ void HealthMonitor::addCounters(health_t& health, const NamedCounters& others) c
     list.addEach<DecodeFault>(kind + ": ", ingest_.decode_faults[i]);
     list.addEach<ConvertFault>(kind + ": ", ingest_.convert_faults[i]);
     list.addIfAny(kind + ": ahead of our clock", ingest_.from_future[i]);
+    list.addIfAny(kind + ": before the log's clock was known", ingest_.before_clock[i]);
   }
   list.add("views", index_.views);
   list.addEach<ImageFault>("frames: ", index_.image_faults);

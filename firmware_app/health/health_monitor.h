@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_app/stages/hand_overs.h"
 #include "firmware_app/health/latency_histogram.h"
+#include "firmware_app/stages/hand_overs.h"
 #include "nanomap/health_t.hpp"
 
 namespace nanomap {

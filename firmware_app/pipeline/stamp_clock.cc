@@ -6,8 +6,8 @@
 namespace nanomap {
 namespace {
 
-/// From a pose's stamp to its arrival, with a log: as much as scheduling may shake it by.
-constexpr Duration kPoseDelay = std::chrono::milliseconds(30);
+/// From a pose's stamp to its arrival, with a log: as little as an estimator needs.
+constexpr Duration kPoseDelay = std::chrono::milliseconds(5);
 
 void move(Time& stamp, Duration shift) {
   constexpr Duration kLatest(std::int64_t{1} << 62);
@@ -21,11 +21,18 @@ StampClock::StampClock(ClockDomain domain, Duration realtime_ahead) {
   if (domain == ClockDomain::kRealtime) shift_ = -realtime_ahead;
 }
 
-Duration StampClock::shift(InputKind kind, Time stamp, Time arrival) {
-  if (shift_) return *shift_;
-  if (kind != InputKind::kPose) return arrival - stamp;
-  shift_ = arrival - stamp - kPoseDelay;
-  return *shift_;
+std::optional<Duration> StampClock::shift(InputKind kind, Time stamp, Time arrival) {
+  if (shift_) return shift_;
+  if (kind == InputKind::kGoal) return arrival - stamp;  // holds from now on
+  if (kind != InputKind::kPose) return std::nullopt;
+  const Duration difference = arrival - stamp;
+  if (!listening_since_) {
+    listening_since_ = arrival;
+    least_ = difference;
+  }
+  least_ = std::min(least_, difference);
+  if (arrival - *listening_since_ >= kLogListening) shift_ = least_ - kPoseDelay;
+  return shift_;
 }
 
 std::optional<Time> stampOf(const Input& input) {

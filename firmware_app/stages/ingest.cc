@@ -26,18 +26,28 @@ void Ingest::take(InputKind kind, Bytes message, Time arrival) {
   } else {
     Input& input = std::get<Input>(outcome);
     const auto stamp = stampOf(input);
-    const Duration shift = stamp ? clock_.shift(kind, *stamp, arrival) : Duration::zero();
-    const Duration delay = stamp ? arrival - (*stamp + shift) : Duration::zero();
-    if (kind == InputKind::kPose) counters_.newest_pose_delay = delay;
-    if (kind == InputKind::kDepth) counters_.newest_depth_delay = delay;
-    if (delay < -kMaxStampLead) {
-      ++counters_.from_future[index];
+    const auto shift = stamp ? clock_.shift(kind, *stamp, arrival) : Duration::zero();
+    if (!shift) {
+      ++counters_.before_clock[index];
     } else {
-      shiftStamps(input, shift);
-      hand(std::move(input), arrival, shift);
+      takeIn(std::move(input), arrival, *shift);
     }
   }
   outputs_.counters.put([this](IngestCounters& slot) { slot = counters_; });
+}
+
+void Ingest::takeIn(Input&& input, Time arrival, Duration stamp_shift) {
+  const auto kind = static_cast<InputKind>(input.index());
+  shiftStamps(input, stamp_shift);
+  const auto stamp = stampOf(input);
+  const Duration delay = stamp ? arrival - *stamp : Duration::zero();
+  if (kind == InputKind::kPose) counters_.newest_pose_delay = delay;
+  if (kind == InputKind::kDepth) counters_.newest_depth_delay = delay;
+  if (delay < -kMaxStampLead) {
+    ++counters_.from_future[input.index()];
+  } else {
+    hand(std::move(input), arrival, stamp_shift);
+  }
 }
 
 void Ingest::hand(Input&& input, Time arrival, Duration stamp_shift) {

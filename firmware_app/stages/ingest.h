@@ -22,7 +22,8 @@ struct IngestCounters {
   std::array<std::array<std::uint64_t, kDecodeFaultCount>, kInputKindCount> decode_faults{};
   std::array<std::array<std::uint64_t, kConvertFaultCount>, kInputKindCount> convert_faults{};
   std::array<std::uint64_t, kInputKindCount> from_future{};
-  Duration newest_pose_delay{};  ///< from its stamp to its arrival
+  std::array<std::uint64_t, kInputKindCount> before_clock{};  ///< of a log, before its clock was known
+  Duration newest_pose_delay{};                               ///< from its stamp to its arrival
   Duration newest_depth_delay{};
 };
 
@@ -55,6 +56,7 @@ class Ingest {
   [[nodiscard]] const IngestCounters& counters() const { return counters_; }
 
  private:
+  void takeIn(Input&& input, Time arrival, Duration stamp_shift);
   void hand(Input&& input, Time arrival, Duration stamp_shift);
 
   MessageIntake intake_;

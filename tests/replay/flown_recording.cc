@@ -172,13 +172,13 @@ class Flight {
   void ingest() {
     std::sort(arrived_.begin(), arrived_.end(), [](const Arrived& a, const Arrived& b) { return a.at < b.at; });
     MessageIntake intake(lcm());
-    StampClock clock(ClockDomain::kLog, {});
+    StampClock clock(ClockDomain::kRealtime, std::chrono::microseconds(1500));
     Time last{};
     for (Arrived& each : arrived_) {
       each.at = last = std::max(each.at, last + std::chrono::microseconds(1));
       auto outcome = intake.read(each.kind, each.message);
       each.input = std::get<Input>(std::move(outcome));
-      if (const auto stamp = stampOf(*each.input)) each.stamp_shift = clock.shift(each.kind, *stamp, each.at);
+      if (const auto stamp = stampOf(*each.input)) each.stamp_shift = clock.shift(each.kind, *stamp, each.at).value();
       shiftStamps(*each.input, each.stamp_shift);
     }
   }
