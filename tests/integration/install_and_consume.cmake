@@ -13,3 +13,5 @@ run("${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${WORK}/build" "-DCMAKE_PREFIX_PATH=
     "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run("${CMAKE_COMMAND}" --build "${WORK}/build")
 run("${WORK}/build/consumer")
+# The flight process finds its libraries where it was installed.
+run("${CMAKE_COMMAND}" -E env --unset=LD_LIBRARY_PATH "${WORK}/installed/bin/nanomap-flight" --help)
