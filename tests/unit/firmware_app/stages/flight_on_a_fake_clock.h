@@ -32,8 +32,14 @@ class ObedientAutopilot : public AutopilotLink {
     targets.emplace_back(now, target);
     return SendResult::kSent;
   }
-  SendResult send(const ObstacleDistances&) override { return SendResult::kSent; }
-  SendResult send(const OdometryMessage&) override { return SendResult::kSent; }
+  SendResult send(const ObstacleDistances&) override {
+    ++obstacles;
+    return SendResult::kSent;
+  }
+  SendResult send(const OdometryMessage&) override {
+    ++odometries;
+    return SendResult::kSent;
+  }
   SendResult sendText(Severity, std::string_view text) override {
     texts.emplace_back(text);
     return SendResult::kSent;
@@ -72,6 +78,8 @@ class ObedientAutopilot : public AutopilotLink {
   std::deque<AutopilotPose> poses;
   std::vector<std::pair<Time, LocalNedTarget>> targets;
   std::vector<std::string> texts;
+  std::size_t obstacles = 0;
+  std::size_t odometries = 0;
   SystemStatus status = SystemStatus::kBoot;
 };
 
@@ -82,7 +90,8 @@ class FlightOnAFakeClock {
   static constexpr Duration kTick = std::chrono::milliseconds(10);
   static constexpr double kHeading_rad = 1.2;  ///< of W in NED
 
-  FlightOnAFakeClock() : stages_(configuration(), Duration::zero(), autopilot) {
+  explicit FlightOnAFakeClock(const Configuration& configuration = FlightOnAFakeClock::configuration())
+      : stages_(configuration, Duration::zero(), autopilot) {
     autopilot.now = now_;
     autopilot.state.linked = true;
     autopilot.state.armed = true;
