@@ -101,6 +101,7 @@ CameraModel::CameraModel(CameraParameters parameters)
     undistortOnce();
   }
   ray_tiles_ = RayTiles({width(), height()}, ray_tangents_);
+  tile_tangents_ = TileTangents({width(), height()}, ray_tangents_);
   findRawRange();
 }
 

@@ -8,6 +8,7 @@
 #include "core/geometry.h"
 #include "core/raw_range.h"
 #include "core/ray_tiles.h"
+#include "core/tile_tangents.h"
 
 namespace nanomap {
 
@@ -103,6 +104,9 @@ class CameraModel {
   /// The tangents of all rays once more, in the order of the nearest-point index.
   [[nodiscard]] const RayTiles& rayTiles() const { return ray_tiles_; }
 
+  /// Their bounds along columns and rows of tiles.
+  [[nodiscard]] const TileTangents& tileTangents() const { return tile_tangents_; }
+
   struct Pixel {
     int u = 0;
     int v = 0;
@@ -129,6 +133,7 @@ class CameraModel {
   Frustum frustum_;
   std::vector<Eigen::Vector2f> ray_tangents_;  ///< row-major, one a pixel
   RayTiles ray_tiles_;
+  TileTangents tile_tangents_;
   RawRange in_range_;
   std::vector<std::int32_t> distorted_pixel_;  ///< cell -> image pixel; empty without distortion
 };

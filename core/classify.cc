@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/open_sky.h"
 #include "core/return_search.h"
 
 namespace nanomap {
@@ -17,33 +18,6 @@ bool contains(const Frustum& frustum, const Vec3& mean_C, const Vec3& half_size_
   return side(0, frustum.tan_left, 1.0) && side(0, frustum.tan_right, -1.0) &&  //
          side(1, frustum.tan_top, 1.0) && side(1, frustum.tan_bottom, -1.0) &&  //
          mean_C.z() - half_size_C.z() >= frustum.near_m && mean_C.z() + half_size_C.z() <= frustum.far_m;
-}
-
-/// The pixels up to `reach_u` and `reach_v` beside and above one, as far as there are any.
-PixelRect windowAround(const CameraModel& camera, CameraModel::Pixel pixel, double reach_u, double reach_v) {
-  const auto u = static_cast<int>(std::min(reach_u, static_cast<double>(camera.width())));
-  const auto v = static_cast<int>(std::min(reach_v, static_cast<double>(camera.height())));
-  return {std::max(pixel.u - u, 0), std::min(pixel.u + u, camera.width() - 1),  //
-          std::max(pixel.v - v, 0), std::min(pixel.v + v, camera.height() - 1)};
-}
-
-/// Sky rather than a hole, for a point at depth `z_m` behind a pixel without depth: nothing near in the window at the
-/// pixel's level or above. What lies lower is the ground that the sky stands on; a pane has its wall beside and above
-/// it. Seen from close by that frame leaves the window in pixels: then nothing may be seen about as far away as the
-/// point within the frame's distance in metres.
-bool isOpen(const View& view, CameraModel::Pixel pixel, double z_m, const Vec3& up_C, const QueryOptions& options) {
-  const CameraModel& camera = view.camera();
-  const PixelRect window = windowAround(camera, pixel, options.open_window_px, options.open_window_px);
-  const double far_m = options.open_range_fraction * camera.frustum().far_m;
-  // Looking straight up or down, the image has no level: then whatever is near speaks against sky.
-  constexpr double kLeastUpInImage = 1e-3;
-  ImageLevel level{.through = pixel};
-  const Eigen::Vector2d up_image = up_C.head<2>();
-  if (up_image.norm() >= kLeastUpInImage) level.up = up_image.normalized();
-  if (hasReturnWithin(view, window, far_m, level)) return false;
-  const PixelRect frame = windowAround(camera, pixel, camera.parameters().fx_px * options.open_frame_m / z_m,
-                                       camera.parameters().fy_px * options.open_frame_m / z_m);
-  return !hasReturnWithin(view, frame, std::min(z_m + options.open_frame_m, far_m), level);
 }
 
 /// Does a return in the box's pixel footprint lie in front of the box's far face? @pre the box is in the frustum
@@ -91,7 +65,7 @@ Status classifyLazily(const View& view, const Vec3& mean_C_m, const Vec3& up_C, 
 
   const std::uint16_t raw = view.rawAt(pixel->u, pixel->v);
   if (camera.classify(raw) == DepthReading::kNone) {
-    if (!isOpen(view, *pixel, z_m, up_C, options)) return Status::kHole;
+    if (!isOpen(view, PixelRect::of(*pixel), z_m, up_C, options)) return Status::kHole;
     return contains(frustum, mean_C_m, half_size()) ? Status::kOpen : Status::kPartial;
   }
   if (z_m >= static_cast<double>(camera.depth(raw))) return Status::kOccluded;

@@ -56,6 +56,11 @@ struct Pose {
           from.translation_m + weight * (to.translation_m - from.translation_m)};
 }
 
+/// No less than the largest eigenvalue of a symmetric matrix (Gershgorin).
+[[nodiscard]] inline double largestVarianceBound(const Mat3& covariance_m2) {
+  return covariance_m2.cwiseAbs().rowwise().sum().maxCoeff();
+}
+
 /// A Gaussian point: mean [m] and covariance [m^2], both in the frame that ends the variable's name (`x_B`).
 struct UncertainPoint {
   Vec3 mean_m = Vec3::Zero();

@@ -24,6 +24,9 @@ QueryReply nearestAt(const ChainSnapshot& snapshot, const Location& location, co
   QueryReply reply;
   reply.status = location.status;
   reply.view_index = location.view_index;
+  if (options.certify) {
+    reply.certified = certifiedClearance(snapshot, x_B.mean_m, options, static_cast<double>(max_distance_m));
+  }
   if (!location.view_index) return reply;
 
   const SnapshotView& view = snapshot.views[*location.view_index];
@@ -31,6 +34,10 @@ QueryReply nearestAt(const ChainSnapshot& snapshot, const Location& location, co
   const auto wanted = std::span(reply.neighbours).first(static_cast<std::size_t>(options.k));
   reply.neighbour_count =
       static_cast<std::uint32_t>(view.view->index().nearest(reply.x_C.mean_m.cast<float>(), wanted, max_distance_m));
+  if (reply.certified && reply.neighbour_count > 0) {
+    const auto nearest_m = static_cast<double>(reply.neighbours.front().distance_m);
+    reply.certified->radius_m = std::min(reply.certified->radius_m, nearest_m);
+  }
   return reply;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/certified_clearance.h"
 #include "core/classify.h"
 #include "core/nearest_point_index.h"
 #include "core/query_options.h"
@@ -29,6 +30,9 @@ struct QueryReply {
   UncertainPoint x_C;                       ///< the point in that view's camera frame
   std::uint32_t neighbour_count = 0;
   std::array<Neighbour, kMaxNeighbours> neighbours;  ///< the first `neighbour_count`, by ascending distance
+  /// With QueryOptions::certify: space is known to be empty this far around the point's mean, and no farther than the
+  /// nearest neighbour. A nearest neighbour alone knows nothing of what lies outside its view, or hidden in it.
+  std::optional<CertifiedClearance> certified;
 
   [[nodiscard]] std::span<const Neighbour> found() const { return {neighbours.data(), neighbour_count}; }
 };
@@ -47,7 +51,7 @@ struct QueryReply {
 [[nodiscard]] QueryReply query(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const QueryOptions& options);
 
 /// The second half, for a point that locate() has placed: its mean and covariance in the view's frame and its nearest
-/// neighbours, no farther than `max_distance_m`.
+/// neighbours, no farther than `max_distance_m`; nor is a certified radius of interest that is larger.
 /// @pre as of query(), and `location` is locate()'s for the same arguments
 /// Allocates: no, except inside FLANN. Threads: any number of readers.
 [[nodiscard]] QueryReply nearestAt(const ChainSnapshot& snapshot, const Location& location, const UncertainPoint& x_B,

@@ -18,6 +18,12 @@ struct QueryOptions {
   /// Reach of a second window, in metres beside the point: what is seen in it and is not this much farther away than the
   /// point may be a pane's frame, which close by lies outside of a window in pixels.
   double open_frame_m = 2.0;
+
+  /// Also how much of the space around the point is known to be empty (core/certified_clearance.h): costs many times
+  /// what the rest does.
+  bool certify = false;
+  int narrow_gap_px = 4;        ///< a gap among the depths that is no wider hides nothing, to a certificate
+  double certify_sigmas = 1.0;  ///< of the drift since a view, as in the box, by which a certified radius is less
 };
 
 }  // namespace nanomap

@@ -10,6 +10,8 @@ namespace nanomap {
 struct PixelRect {
   int u_min, u_max, v_min, v_max;
 
+  [[nodiscard]] static PixelRect of(CameraModel::Pixel pixel) { return {pixel.u, pixel.u, pixel.v, pixel.v}; }
+
   bool operator==(const PixelRect&) const = default;
 };
 

@@ -54,6 +54,7 @@ class View {
   [[nodiscard]] const CameraModel& camera() const { return *camera_; }
   [[nodiscard]] const NearestPointIndex& index() const { return image_index_ ? *image_index_ : *other_index_; }
   [[nodiscard]] const DepthTiles& tiles() const { return tiles_; }
+  [[nodiscard]] const TiledImage& image() const { return image_; }
 
   /// Raw value at column `u`, row `v` inside the image.
   [[nodiscard]] std::uint16_t rawAt(int u, int v) const { return image_.at(u, v); }

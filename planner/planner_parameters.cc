@@ -77,6 +77,7 @@ void check(const RiskParameters& risk) {
   check("risk.horizontal", risk.horizontal);
   check("risk.vertical", risk.vertical);
   requireNotNegative("risk.bubble_margin_m", risk.bubble_margin_m);
+  requireNotNegative("risk.certificate_beyond_m", risk.certificate_beyond_m);
   requirePositive("risk.collision.vehicle_radius_m", risk.collision.vehicle_radius_m);
   requireNotNegative("risk.collision.pull_to_vehicle_m", risk.collision.pull_to_vehicle_m);
   requireNotNegative("risk.collision.measured_point_variance_m2", risk.collision.measured_point_variance_m2);
@@ -85,6 +86,8 @@ void check(const RiskParameters& risk) {
   requireNotNegative("risk.query.open_window_px", risk.query.open_window_px);
   requireProbability("risk.query.open_range_fraction", risk.query.open_range_fraction);
   requireNotNegative("risk.query.open_frame_m", risk.query.open_frame_m);
+  requireNotNegative("risk.query.narrow_gap_px", risk.query.narrow_gap_px);
+  requireNotNegative("risk.query.certify_sigmas", risk.query.certify_sigmas);
   for (std::size_t i = 0; i < kStatusCount; ++i) {
     requireProbability("risk.prior of '" + std::string(toString(static_cast<Status>(i))) + "'", risk.prior[i]);
   }

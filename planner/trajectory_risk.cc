@@ -19,7 +19,12 @@ class RiskTally {
     if (sample.risk > heaviest_.risk) heaviest_ = sample;
     if (1.0 - survival_ <= max_risk_) return;
     result_.veto.emplace();
-    if (heaviest_.prior >= heaviest_.collision_probability) result_.veto->status = heaviest_.status;
+    if (heaviest_.prior >= std::max(heaviest_.collision_probability, heaviest_.unseen_probability)) {
+      result_.veto->status = heaviest_.status;
+    } else if (heaviest_.collision_probability <= max_risk_ &&
+               heaviest_.unseen_probability > heaviest_.collision_probability) {
+      result_.veto->status = Status::kPartial;
+    }
   }
 
   [[nodiscard]] bool isVetoed() const { return result_.veto.has_value(); }
@@ -39,9 +44,6 @@ class RiskTally {
   TrajectoryRisk result_;
 };
 
-/// No less than the largest eigenvalue of a symmetric matrix (Gershgorin).
-double largestVarianceBound(const Mat3& covariance_m2) { return covariance_m2.cwiseAbs().rowwise().sum().maxCoeff(); }
-
 }  // namespace
 
 SpaceAhead::SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters)
@@ -53,6 +55,15 @@ Mat3 SpaceAhead::covariance_B(double horizontal_std_m, double vertical_std_m) co
   const double vertical_m2 = vertical_std_m * vertical_std_m;
   const Vec3 up_B = R_B_W_.col(2);
   return horizontal_m2 * Mat3::Identity() + (vertical_m2 - horizontal_m2) * up_B * up_B.transpose();
+}
+
+/// The chance of an error as large as what is left of the certified ball beside the vehicle, in the view that vouches
+/// for it and with the point's whole covariance there.
+double SpaceAhead::unseenProbability(const UncertainPoint& x_B, double reach_m) const {
+  const CertifiedClearance certified = certifiedClearance(snapshot_, x_B.mean_m, parameters_.query, reach_m);
+  if (!certified.view_index) return 1.0;
+  const UncertainPoint x_C = snapshot_.views[*certified.view_index].toCamera(x_B);
+  return errorTailBound(x_C.covariance_m2, certified.vouched_m - parameters_.collision.vehicle_radius_m);
 }
 
 SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool stop_early) const {
@@ -79,8 +90,14 @@ SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool
     const QueryReply reply = nearestAt(snapshot_, location, x_B, parameters_.query, static_cast<float>(reach_m));
     if (!reply.found().empty()) sample.nearest_m = static_cast<double>(reply.found().front().distance_m);
     sample.collision_probability = collisionProbability(reply.x_C, reply.found(), parameters_.collision);
+    // Both bound the same error: the larger one holds for what was measured and for what was not.
+    const bool demanded = parameters_.demand_certificate && x_B.mean_m.norm() > parameters_.certificate_beyond_m;
+    if (demanded && !certain && !(stop_early && sample.collision_probability > parameters_.max_risk)) {
+      sample.unseen_probability = unseenProbability(x_B, reach_m);
+    }
   }
-  sample.risk = 1.0 - (1.0 - sample.prior) * (1.0 - sample.collision_probability);
+  const double reached = std::max(sample.collision_probability, sample.unseen_probability);
+  sample.risk = 1.0 - (1.0 - sample.prior) * (1.0 - reached);
   return sample;
 }
 

@@ -45,6 +45,12 @@ struct RiskParameters {
   CollisionParameters collision;
   QueryOptions query;
 
+  /// Space that no view has seen empty may hold anything: what reaches it counts as a collision. Only then does the
+  /// constraint hold for obstacles outside the view that answers, or hidden in it; narrow passages stay closed.
+  bool demand_certificate = false;
+  /// Not of places nearer than this to the vehicle, beside which a camera that stands still never looks.
+  double certificate_beyond_m = 2.0;
+
   std::array<double, kStatusCount> prior = defaultPriors();
 };
 
@@ -58,7 +64,8 @@ struct SampleEvidence {
   bool in_bubble = false;              ///< judged by its neighbours alone
   double prior = 0.0;                  ///< from the status; 0 in the bubble
   double collision_probability = 0.0;  ///< from the neighbours
-  double risk = 0.0;                   ///< of both
+  double unseen_probability = 0.0;     ///< of reaching space that is not certified to be empty, if that is demanded
+  double risk = 0.0;                   ///< of all
 
   /// Distance to the nearest measured point; infinite if there is none that matters.
   [[nodiscard]] double distance_m() const { return nearest_m.value_or(std::numeric_limits<double>::infinity()); }
@@ -67,7 +74,8 @@ struct SampleEvidence {
   [[nodiscard]] bool seenFree() const { return in_bubble || endsSearch(status); }
 };
 
-/// What weighed most against something: a status, or measured points where there is none.
+/// What weighed most against something: a status, or measured points where there is none. Space that is not certified
+/// counts as kPartial: only part of what the place may be was seen.
 struct VetoCause {
   std::optional<Status> status;
 };
@@ -100,6 +108,7 @@ class SpaceAhead {
 
  private:
   [[nodiscard]] Mat3 covariance_B(double horizontal_std_m, double vertical_std_m) const;
+  [[nodiscard]] double unseenProbability(const UncertainPoint& x_B, double reach_m) const;
 
   const ChainSnapshot& snapshot_;
   const RiskParameters& parameters_;

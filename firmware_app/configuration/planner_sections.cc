@@ -177,6 +177,15 @@ Section riskSection() {
             {"gaussian_volume", CollisionModel::kGaussianVolume},
             {"half_spaces", CollisionModel::kHalfSpaces}},
            [](auto& c) -> auto& { return c.planner.risk.collision.model; }),
+       booleanKey(
+           "demand_certificate",
+           "Space around a place that no view has seen empty counts as an obstacle: what is hidden or lies outside the\n"
+           "view that answers cannot be hit unseen. Safer, slower, takes more time to plan; narrow passages stay closed.",
+           [](auto& c) -> auto& { return c.planner.risk.demand_certificate; }),
+       numberKey(
+           "certificate_beyond_m",
+           "Not of places nearer to the vehicle than this, beside which a camera that stands still never looks.",
+           {0.0, 100.0}, [](auto& c) -> auto& { return c.planner.risk.certificate_beyond_m; }),
        numberKey(
            "pull_to_vehicle_m", "gaussian_volume: the nearest point is taken this much nearer.", {0.0, 10.0},
            [](auto& c) -> auto& { return c.planner.risk.collision.pull_to_vehicle_m; }),

@@ -97,7 +97,16 @@ Section querySection() {
            "open_frame_m",
            "Nor is it sky, for a point, if within this distance beside the point something is seen that is no more\n"
            "than this farther away: the frame of a pane that fills the view.",
-           {0.0, 100.0}, [](auto& c) -> auto& { return c.planner.risk.query.open_frame_m; })},
+           {0.0, 100.0}, [](auto& c) -> auto& { return c.planner.risk.query.open_frame_m; }),
+       integerKey(
+           "narrow_gap_px",
+           "For risk.demand_certificate: a gap among the depths that is at most this wide, in pixels, hides nothing.",
+           {0, 1024}, [](auto& c) -> auto& { return c.planner.risk.query.narrow_gap_px; }),
+       numberKey(
+           "certify_sigmas",
+           "Of views that may certify a place, the best is the one with the largest radius less this many standard\n"
+           "deviations of the drift since then.",
+           {0.0, 100.0}, [](auto& c) -> auto& { return c.planner.risk.query.certify_sigmas; })},
       {}};
 }
 

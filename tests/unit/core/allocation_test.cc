@@ -41,10 +41,13 @@ TEST_P(AllocationIn, AQueryAllocatesOnlyInsideFlann) {
 
   for (const Vec3& p_B : {Vec3(3.0, 0.0, 0.0), Vec3(0.0, -3.0, 0.0), Vec3(0.0, 0.0, 9.0), Vec3(30.0, 0.0, 0.0)}) {
     for (const OcclusionTest occlusion : {OcclusionTest::kMean, OcclusionTest::kFootprint}) {
-      before = test::allocationCount();
-      const QueryReply reply = query(snapshot, {p_B, 0.01 * Mat3::Identity()}, {.k = 16, .occlusion = occlusion});
-      EXPECT_EQ(test::allocationCount() - before, allocations_in_flann)
-          << p_B.transpose() << ' ' << toString(reply.status);
+      for (const bool certify : {false, true}) {
+        before = test::allocationCount();
+        const QueryReply reply =
+            query(snapshot, {p_B, 0.01 * Mat3::Identity()}, {.k = 16, .occlusion = occlusion, .certify = certify});
+        EXPECT_EQ(test::allocationCount() - before, allocations_in_flann)
+            << p_B.transpose() << ' ' << toString(reply.status);
+      }
     }
   }
 

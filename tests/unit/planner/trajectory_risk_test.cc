@@ -62,6 +62,36 @@ TEST(SpaceAhead, InsideTheBubbleOnlyNeighboursJudge) {
   EXPECT_EQ(touching.risk, 1.0);
 }
 
+/// Beside a post's shadow: what the post hides is no obstacle to the nearest neighbour, and one to a certificate.
+TEST(SpaceAhead, ACertificateIsDemandedOfSpaceThatMayHideSomething) {
+  const Seen seen(
+      DrawnWorld{{Block{{1.5, -0.75, 0.0}, {1.7, -0.6, 8.0}}, Block{{9.0, -20.0, 0.0}, {9.5, 20.0, 20.0}}}});
+  const Motion beside_shadow{{5.0, -1.2, 2.0}, Vec3::Zero(), Vec3::Zero()};
+  const Motion in_the_open{{5.0, 1.5, 2.0}, Vec3::Zero(), Vec3::Zero()};
+  RiskParameters parameters = seen.flight.planner().parameters().risk;
+  EXPECT_LT(seen.space().assess(beside_shadow, 0.0).risk, 1e-9);
+  EXPECT_EQ(seen.space().assess(beside_shadow, 0.0).unseen_probability, 0.0);
+
+  parameters.demand_certificate = true;
+  const SpaceAhead certified(seen.flight.snapshot(), parameters);
+  const SampleEvidence hidden = certified.assess(beside_shadow, 0.0);
+  EXPECT_EQ(hidden.status, Status::kFree);
+  EXPECT_GT(hidden.unseen_probability, 0.001);
+  EXPECT_EQ(hidden.risk, hidden.unseen_probability);
+  EXPECT_LT(certified.assess(in_the_open, 0.0).risk, 1e-9);
+
+  Trajectory towards_shadow(Time{}, Motion{{5.0, 0.0, 2.0}, {0.0, -0.7, 0.0}, Vec3::Zero()});
+  towards_shadow.append(2.0, Vec3::Zero());
+  EXPECT_FALSE(seen.space().assess(towards_shadow, 20, true).veto);
+  const TrajectoryRisk through = certified.assess(towards_shadow, 20, true);
+  ASSERT_TRUE(through.veto);
+  EXPECT_EQ(through.veto->status, Status::kPartial);
+  const Motion nearer{{1.9, -0.5, 2.0}, Vec3::Zero(), Vec3::Zero()};
+  EXPECT_EQ(certified.assess(nearer, 0.0).unseen_probability, 0.0) << "a camera cannot vouch for what is beside it";
+  parameters.certificate_beyond_m = 1.0;
+  EXPECT_GT(certified.assess(nearer, 0.0).unseen_probability, 0.001);
+}
+
 TEST(SpaceAhead, DeviationGrowsWithSpeedAndTime) {
   const DeviationGrowth growth{.base_m = 0.1, .per_speed_s = 0.02, .per_time_m_s = 0.03};
   EXPECT_DOUBLE_EQ(growth.at(0.0, 0.0), 0.1);
