@@ -48,12 +48,6 @@ class DepthTiles {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
 
-  /// Does the pixel in column `u`, row `v` carry no depth?
-  [[nodiscard]] bool isGap(int u, int v) const {
-    const Gaps& gaps = gaps_[tileAt(u / kEdge_px, v / kEdge_px)];
-    return (gaps[static_cast<std::size_t>(u % kEdge_px)] >> (v % kEdge_px) & 1U) != 0;
-  }
-
  private:
   int columns_;
   int rows_;

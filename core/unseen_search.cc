@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/depth_gap.h"
+#include "core/gaps_of_tile.h"
 #include "core/open_sky.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -180,18 +180,19 @@ class BallSearch {
       const auto place = static_cast<std::size_t>(std::countr_zero(rest));
       if (squares_m2[place] < squares_m2[nearest]) nearest = place;
     }
-    searchGap(tile, nearest);
+    const GapsOfTile gaps(s_.view, tile.rect.u_min / kEdge_px, tile.rect.v_min / kEdge_px);
+    searchGap(tile, gaps, nearest);
     within &= ~(std::uint64_t{1} << nearest);
     for (; within != 0 && !isEnough(); within &= within - 1) {
       const auto place = static_cast<std::size_t>(std::countr_zero(within));
-      if (squares_m2[place] < least_sq_m2_) searchGap(tile, place);
+      if (squares_m2[place] < least_sq_m2_) searchGap(tile, gaps, place);
     }
   }
 
-  void searchGap(const Tile& tile, std::size_t place) {
+  void searchGap(const Tile& tile, const GapsOfTile& gaps, std::size_t place) {
     const CameraModel::Pixel pixel{tile.rect.u_min + static_cast<int>(place) % kEdge_px,
                                    tile.rect.v_min + static_cast<int>(place) / kEdge_px};
-    const float begin_m = narrowGapDepth_m(s_.view, pixel, s_.options.narrow_gap_px).value_or(near_m_);
+    const float begin_m = gaps.narrowDepth_m(pixel, s_.options.narrow_gap_px).value_or(near_m_);
     const float square_m2 = distance_.square_m2(tile.tan_x.tangents[place], tile.tan_y.tangents[place], begin_m);
     if (square_m2 < least_sq_m2_) setNearest(tile, place, begin_m, square_m2);
   }

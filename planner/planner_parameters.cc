@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/gaps_of_tile.h"
 #include "planner/brake.h"
 
 namespace nanomap {
@@ -86,7 +87,8 @@ void check(const RiskParameters& risk) {
   requireNotNegative("risk.query.open_window_px", risk.query.open_window_px);
   requireProbability("risk.query.open_range_fraction", risk.query.open_range_fraction);
   requireNotNegative("risk.query.open_frame_m", risk.query.open_frame_m);
-  requireNotNegative("risk.query.narrow_gap_px", risk.query.narrow_gap_px);
+  require(risk.query.narrow_gap_px >= 0 && risk.query.narrow_gap_px <= GapsOfTile::kWidest_px,
+          "risk.query.narrow_gap_px", risk.query.narrow_gap_px, "0 .. " + std::to_string(GapsOfTile::kWidest_px));
   requireNotNegative("risk.query.certify_sigmas", risk.query.certify_sigmas);
   for (std::size_t i = 0; i < kStatusCount; ++i) {
     requireProbability("risk.prior of '" + std::string(toString(static_cast<Status>(i))) + "'", risk.prior[i]);

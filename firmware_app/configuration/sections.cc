@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/gaps_of_tile.h"
+
 namespace nanomap {
 namespace {
 
@@ -101,7 +103,7 @@ Section querySection() {
        integerKey(
            "narrow_gap_px",
            "For risk.demand_certificate: a gap among the depths that is at most this wide, in pixels, hides nothing.",
-           {0, 1024}, [](auto& c) -> auto& { return c.planner.risk.query.narrow_gap_px; }),
+           {0, GapsOfTile::kWidest_px}, [](auto& c) -> auto& { return c.planner.risk.query.narrow_gap_px; }),
        numberKey(
            "certify_sigmas",
            "Of views that may certify a place, the best is the one with the largest radius less this many standard\n"

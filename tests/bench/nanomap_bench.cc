@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -15,6 +17,7 @@
 
 #include "tests/bench/frames/scenario.h"
 #include "tests/bench/report/scoreboard.h"
+#include "tests/bench/rows/certified_survey.h"
 #include "tests/bench/rows/effort.h"
 #include "tests/bench/rows/workload.h"
 #include "tools/import/camera_preset.h"
@@ -32,6 +35,7 @@ constexpr std::array kScenes = {Scene{"forest", Noise::kNoisy}, Scene{"forest", 
 
 struct Options {
   bool ratios = false;
+  bool certified = false;
   bool quick = false;
   std::filesystem::path json;
   std::filesystem::path depth_folder;
@@ -42,6 +46,9 @@ void addOptions(CLI::App& app, Options& options) {
   app.add_flag("--ratios", options.ratios,
                "Print one line a row, `name value bar ok|short`; exit with 1 if one is short. Without it, Google "
                "Benchmark runs, on one scene, and takes its own options");
+  app.add_flag("--certified", options.certified,
+               "Print what certified clearance is worth and costs, against the true clearance of generated scenes")
+      ->excludes("--ratios");
   app.add_flag("--quick", options.quick, "Hardly measure: shows that everything works, the figures say nothing");
   app.add_option("--json", options.json, "Write the results to this file as well");
   app.add_option("--depth-dir", options.depth_folder,
@@ -76,6 +83,18 @@ int runRatios(const Options& options, const Effort& effort) {
   scoreboard.print(generated);
   if (!options.json.empty()) scoreboard.writeJson(options.json);
   return scoreboard.allReached(generated) ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+int runSurvey(const Effort& effort) {
+  std::vector<CertifiedFigures> figures;
+  for (const std::string_view scene : {"forest", "warehouse", "urban"}) {
+    for (const Noise noise : {Noise::kNoisy, Noise::kClean}) {
+      std::ranges::move(surveyCertificates(scene, noise, effort.history, effort.nearest_queries),
+                        std::back_inserter(figures));
+    }
+  }
+  print(figures);
+  return EXIT_SUCCESS;
 }
 
 void registerBenchmark(const std::string& name, const Contestant& contestant) {
@@ -132,11 +151,12 @@ int main(int argc, char** argv) {
   try {
     const Effort effort = options.quick ? Effort::quick() : Effort();
     std::vector<std::string> others = app.remaining();
-    if (!options.ratios) {
+    if (!options.ratios && !options.certified) {
       others.insert(others.begin(), app.get_name());
       return runBenchmarks(options, effort, std::move(others));
     }
-    if (!others.empty()) throw std::invalid_argument(others.front() + ": not an option of --ratios");
+    if (!others.empty()) throw std::invalid_argument(others.front() + ": not an option of this");
+    if (options.certified) return runSurvey(effort);
     return runRatios(options, effort);
   } catch (const std::exception& error) {
     fmt::print(stderr, "nanomap-bench: {}\n", error.what());

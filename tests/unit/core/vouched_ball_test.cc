@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "core/depth_gap.h"
 #include "core/open_sky.h"
 #include "tests/support/drawing.h"
 #include "tests/support/instruction_sets.h"
@@ -135,7 +134,7 @@ TEST_P(VouchedBallOn, HasTheRadiusThatAllPixelsLeaveItAndNoMore) {
       const ViewPtr view = viewOf(clutter(*camera, random), camera);
       QueryOptions options;
       options.open_window_px = scene % 2 == 0 ? 2 : 32;
-      options.narrow_gap_px = scene % 3 * 2;
+      options.narrow_gap_px = scene % 3 * 4;
       for (int i = 0; i < 60; ++i) {
         const Vec3 p_C = drawInFrustum(*camera, random);
         const double expected_m = slowRadius_m(*view, p_C, options);
@@ -215,12 +214,12 @@ TEST_F(Vouched, ShadowsLimitItThoughNoReturnIsNear) {
 
 TEST_F(Vouched, AWideGapIsUnseenFromTheNearLimitOnAndANarrowOneFromItsNearestEnd) {
   DepthImage wide = wall_at_6m_;
-  paint(wide, 100, 106, 40, 80, 0);
+  paint(wide, 100, 108, 40, 80, 0);
   EXPECT_NEAR(radius_m(wide, {0.8, 0.0, 4.0}), 0.19, 0.05);
   DepthImage narrow = wall_at_6m_;
-  paint(narrow, 100, 103, 40, 80, 0);
+  paint(narrow, 100, 107, 40, 80, 0);
   EXPECT_NEAR(radius_m(narrow, {0.8, 0.0, 4.0}), 1.9, 0.01);
-  paint(narrow, 104, 110, 0, 119, 4000);  // what lies in front of one end may go on in the gap
+  paint(narrow, 108, 110, 0, 119, 4000);  // what lies in front of one end may go on in the gap
   EXPECT_NEAR(radius_m(narrow, {0.8, 0.0, 4.0}), 0.19, 0.05);
   DepthImage next = wall_at_6m_;
   paint(next, 100, 103, 40, 80, 0);
