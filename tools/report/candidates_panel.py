@@ -6,11 +6,13 @@ import matplotlib.pyplot as plt
 import nanomap
 import numpy as np
 from flight import Flight
+from matplotlib.transforms import ScaledTranslation
 from style import LOOKS
 
 FEASIBLE_COLOUR = "#009E73"
 NEIGHBOURS_COLOUR = "#E8D8A8"
 NOT_EVALUATED_COLOUR = "#EDEDED"
+BELOW_IN = 0.45  # the time axis has its numbers and its name there
 
 
 @dataclass(frozen=True)
@@ -44,4 +46,6 @@ def draw(axes: plt.Axes, flight: Flight) -> None:
     axes.set_ylim(0, max(1, *(d.num_candidates for d in decisions)))
     axes.set_ylabel("candidates")
     axes.set_title("Candidates: feasible, or what vetoed them")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.47, -0.13), ncols=3, columnspacing=1.0, handlelength=1.0)
+    below = ScaledTranslation(0, -BELOW_IN, axes.figure.dpi_scale_trans)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.47, 0), bbox_transform=axes.transAxes + below, ncols=3,
+                columnspacing=1.0, handlelength=1.0)

@@ -23,6 +23,7 @@ class Flight:
     goals: list[nanomap.goal_t]  # of that world, that decisions were made for
     seen: SeenPoints  # in that world
     limits: Limits
+    healths: list[nanomap.health_t]  # by time; none without a flight process
     start_utime: int  # the log's first event, on the messages' clock
 
     @property
@@ -63,7 +64,8 @@ def gather_flight(log: Path, decisions_log: Path, channels: Channels, limits: Li
                          "Do the two belong together?")
     seen = gather_seen_points(inputs.messages(nanomap.depth_image_t), inputs.camera(), track)
     return Flight(log, decisions, log.samefile(decisions_log), tracks, epoch,
-                  _goals(log, channels, decisions, epoch), seen, limits, _start_utime(inputs, decided))
+                  _goals(log, channels, decisions, epoch), seen, limits,
+                  [event.message for event in events(log, channels.healths())], _start_utime(inputs, decided))
 
 
 def _tracks(inputs: Inputs) -> dict[int, Track]:

@@ -42,6 +42,7 @@ class Channels:
     goal_channel: str = "GOAL"
     answers_channel: str = "NANOMAP_ANSWERS"
     decisions_channel: str = "NANOMAP_DECISIONS"
+    health_channel: str = "NANOMAP_HEALTH"
 
     def inputs(self) -> dict[str, type]:
         """Channel -> message type of what a replay takes in."""
@@ -60,6 +61,9 @@ class Channels:
 
     def decisions(self) -> dict[str, type]:
         return {self.decisions_channel: nanomap.decision_t}
+
+    def healths(self) -> dict[str, type]:
+        return {self.health_channel: nanomap.health_t}
 
 
 def read_channels(config: Path | None) -> Channels:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import matplotlib.pyplot as plt
 from nanomap_log import Status
 
 # Ground and crowns would cover everything: a view from above shows what is this near to the vehicle's height.
@@ -29,3 +30,9 @@ LOOKS = {
 
 MOTION_COLOUR = "#000000"
 BRAKE_COLOUR = "#D55E00"
+
+
+def legend_on_title_line(axes: plt.Axes, handle_length: float = 1.4) -> None:
+    """Where it covers nothing."""
+    axes.legend(loc="lower right", bbox_to_anchor=(1.01, 0.98), ncols=4, columnspacing=1.0, handlelength=handle_length,
+                handletextpad=0.5, borderaxespad=0)

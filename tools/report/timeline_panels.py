@@ -6,7 +6,7 @@ from flight import Flight
 from flight_summary import Summary
 from motion import Motion
 from outcomes import Outcome, outcome
-from style import BRAKE_COLOUR, MOTION_COLOUR
+from style import BRAKE_COLOUR, MOTION_COLOUR, legend_on_title_line
 
 # How far ahead of a plan its motion is told: later ones have replaced it by then.
 AHEAD_S = 0.5
@@ -48,7 +48,7 @@ def draw_speeds(axes: plt.Axes, flight: Flight) -> None:
     axes.set_ylim(bottom=0)
     axes.set_ylabel("speed [m/s]")
     axes.set_title("Speed")
-    _legend(axes)
+    legend_on_title_line(axes)
 
 
 def draw_clearance(axes: plt.Axes, flight: Flight) -> None:
@@ -60,7 +60,7 @@ def draw_clearance(axes: plt.Axes, flight: Flight) -> None:
     axes.set_ylim(0, min(SHOWN_CLEARANCE_M, 1.1 * farthest))
     axes.set_ylabel("from centre [m]")
     axes.set_title("Nearest measured point")
-    _legend(axes)
+    legend_on_title_line(axes)
 
 
 def draw_risks(axes: plt.Axes, flight: Flight) -> None:
@@ -79,14 +79,8 @@ def draw_risks(axes: plt.Axes, flight: Flight) -> None:
     axes.set_yticks(*RISK_TICKS)
     axes.set_ylabel("collision probability")
     axes.set_title("Risk")
-    _legend(axes)
+    legend_on_title_line(axes)
 
 
 def _speed_ahead(decision) -> float:
     return float(np.linalg.norm(Motion(decision.trajectory).at(np.array([AHEAD_S])).velocity[0]))
-
-
-def _legend(axes: plt.Axes) -> None:
-    """On the title's line, where it covers nothing."""
-    axes.legend(loc="lower right", bbox_to_anchor=(1.01, 0.98), ncols=3, columnspacing=1.0, handlelength=1.4,
-                handletextpad=0.5, borderaxespad=0)

@@ -4,9 +4,12 @@ import re
 import tomllib
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import candidates_panel
 import flight_map_panel
+import flight_picture
+import latency_panel
 import matplotlib.pyplot as plt
 import nanomap
 import numpy as np
@@ -19,7 +22,7 @@ from map_frame import Frame, around
 from nanomap_log import Channels, Status
 from outcomes import OUTCOMES, Outcome
 from seen_points import CLEARANCE_WITHIN_S, gather_seen_points
-from synthetic_log import FRAME_US, HEIGHT, START_US, WIDTH, camera, decision, depth, goal, pose, write
+from synthetic_log import FRAME_US, HEIGHT, START_US, WIDTH, camera, decision, depth, goal, health, pose, write
 from track import Track
 
 ROOT = Path(__file__).parents[4]
@@ -234,6 +237,30 @@ class MapFrame(FlightTest):
         flight_map_panel.draw(axes, flight, flight_map_panel.frame(flight))
         labels = [text.get_text() for text in axes.get_legend().get_texts()]
         self.assertEqual(labels[-3:], ["blocked", "nothing verified", "goal"])
+
+
+class Latencies(FlightTest):
+    def flight_with(self, healths: list[nanomap.health_t]) -> Flight:
+        log = write(self.folder / "live.log", flight_inputs() + flight_decisions() +
+                    [("NANOMAP_HEALTH", report.utime + CLOCKS_APART_US, report) for report in healths])
+        return gather_flight(log, log, Channels(), LIMITS)
+
+    def test_come_from_health_reports(self):
+        flight = self.flight_with([health(utime(0), {"plan": (1e-3, 2e-3, 5e-3)}), health(utime(30), {})])
+        self.assertEqual([report.utime for report in flight.healths], [utime(0), utime(30)])
+        _, axes = plt.subplots()
+        self.addCleanup(plt.close)
+        latency_panel.draw(axes, flight)
+        np.testing.assert_allclose([line.get_ydata() for line in axes.lines], [[1, np.nan], [5, np.nan]])
+        self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()], ["plan"])
+
+    def test_are_drawn_if_there_are_any(self):
+        self.assertEqual(self.flight().healths, [])
+        with mock.patch.object(flight_picture.latency_panel, "draw") as drawn:
+            flight_picture.draw(self.flight(), self.folder / "without.png")
+            drawn.assert_not_called()
+            flight_picture.draw(self.flight_with([health(utime(0), {})]), self.folder / "with.png")
+            drawn.assert_called_once()
 
 
 class FlightPicture(FlightTest, ProgramTest):

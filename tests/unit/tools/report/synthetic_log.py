@@ -95,6 +95,18 @@ def goal(utime: int, x_m: float, sequence: int = 0) -> nanomap.goal_t:
     return message
 
 
+def health(utime: int, latencies: dict[str, tuple[float, float, float]]) -> nanomap.health_t:
+    """`latencies`: median, 99 % and longest in s, by name; of a hundred each."""
+    message = nanomap.health_t()
+    message.utime = utime
+    message.num_latencies = len(latencies)
+    for name, (p50, p99, longest) in latencies.items():
+        latency = nanomap.latency_t()
+        latency.name, latency.count, latency.p50, latency.p99, latency.max = name, 100, p50, p99, longest
+        message.latencies.append(latency)
+    return message
+
+
 def write(path: Path, messages: list[tuple[str, int, object]]) -> Path:
     """Each message with its channel and log time."""
     log = lcm.EventLog(str(path), "w", overwrite=True)
