@@ -208,7 +208,7 @@ def main() -> None:
     wire.add_argument("--tcp", action="store_true", help="listen for a companion")
     wire.add_argument("--serial", action="store_true", help="be the far end of a serial line")
     parser.add_argument("--truth-udp", type=int, metavar="PORT",
-                        help="send to a simulator of the sensors, that listens at this port, where the vehicle really is")
+                        help="tell a simulator of the sensors that listens at this port where the vehicle really is")
     parser.add_argument("--altitude", type=float, default=0.0, metavar="M", help="begin armed, hovering at it")
     parser.add_argument("--heading", type=float, default=0.0, metavar="DEG", help="begin so, clockwise from north")
     arguments = parser.parse_args()

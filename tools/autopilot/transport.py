@@ -1,6 +1,6 @@
 """The wires that the autopilot can be reached by.
 
-Each has a `url`, as MAVSDK takes it, under which to reach it, and a `fileno` that is readable when read() has something.
+Each has a `url`, as MAVSDK takes it, under which to reach it, and a `fileno` that is readable if read() has something.
 """
 
 import os
