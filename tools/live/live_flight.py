@@ -43,6 +43,11 @@ class LiveFlightOptions:
     def sim_log(self) -> Path:
         return self.folder / "sim.lcmlog"
 
+    @property
+    def recordings(self) -> Path:
+        """The folder that the flight process records in."""
+        return self.folder / "recordings"
+
 
 class LiveFlight:
     """Three programs; one with an autopilot of the user's has no pilot."""
@@ -63,7 +68,7 @@ class LiveFlight:
         self.sim.until(lambda: any(PLACED in line for line in self.sim.lines()), SIM_START_S, "the scene")
         self.flight = stack.enter_context(Child(
             [options.programs / "nanomap-flight", "--allow-no-realtime", "--set", lcm, "--set",
-             f'mavlink.url="{own.url}"', *options.flight_arguments], options.folder / "flight.txt"))
+             f'mavlink.url="{own.url}"', "--record", options.recordings, *options.flight_arguments], options.folder / "flight.txt"))
 
     def hand_over(self) -> None:
         """As the pilot of tools/autopilot: lets the flight process fly."""

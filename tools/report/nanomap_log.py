@@ -81,15 +81,30 @@ class Event:
     message: Any
 
 
+def log_files(path: Path) -> list[Path]:
+    """A folder of recordings stands for the parts of the latest flight in it, as for nanomap-replay.
+
+    Raises ValueError naming what is not there.
+    """
+    if path.is_file():
+        return [path]
+    if not path.is_dir():
+        raise ValueError(f"{path}: no such log")
+    parts = sorted(path.glob("flight-*-part-*.lcmlog"))
+    if not parts:
+        raise ValueError(f"{path}: holds no recording of a flight")
+    flight, _, _ = parts[-1].name.partition("-part-")
+    return [part for part in parts if part.name.startswith(f"{flight}-")]
+
+
 def events(path: Path, types: dict[str, type]) -> list[Event]:
     """The messages on the channels of `types`, by log time. Other types on those channels are passed over.
 
-    Raises ValueError naming the log and the moment of a message that cannot be decoded.
+    `path` is a log, or a folder of recordings. Raises ValueError naming the log and the moment of a message that cannot
+    be decoded.
     """
-    if not path.is_file():
-        raise ValueError(f"{path}: no such log")
     found = []
-    for raw in lcm.EventLog(str(path), "r"):
+    for raw in (event for file in log_files(path) for event in lcm.EventLog(str(file), "r")):
         message_type = types.get(raw.channel)
         if message_type is None or raw.data[:FINGERPRINT_BYTES] != message_type._get_packed_fingerprint():
             continue

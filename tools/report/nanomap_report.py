@@ -19,7 +19,8 @@ from nanomap_log import read_channels
 
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="nanomap-report", description=__doc__)
-    parser.add_argument("log", type=Path, help="LCM log that was replayed, or that a flight with decisions left")
+    parser.add_argument("log", type=Path, help="LCM log that was replayed, or that a flight with decisions left; a "
+                        "folder of recordings is its latest flight")
     of = parser.add_mutually_exclusive_group(required=True)
     of.add_argument("answers", type=Path, nargs="?", help="draw one moment's answers: nanomap-replay LOG --out ANSWERS")
     of.add_argument("--decisions", type=Path, help="draw the whole flight with these decisions: nanomap-replay LOG "

@@ -146,6 +146,21 @@ class GatherFlight(FlightTest):
         self.assertTrue(flight.own)
         self.assertEqual(summarise(flight), summarise(self.flight()))
 
+    def test_takes_the_latest_flight_of_a_folder_of_recordings(self):
+        folder = self.folder / "recordings"
+        folder.mkdir()
+        messages = sorted(flight_inputs() + flight_decisions(), key=lambda message: message[1])
+        write(folder / "flight-000009-part-0001.lcmlog", messages[:10])
+        write(folder / "flight-000010-part-0001.lcmlog", messages[:50])
+        write(folder / "flight-000010-part-0002.lcmlog", messages[50:])
+        flight = gather_flight(folder, folder, Channels(), LIMITS)
+        self.assertTrue(flight.own)
+        self.assertEqual(summarise(flight), summarise(self.flight()))
+
+    def test_names_a_folder_without_recordings(self):
+        with self.assertRaisesRegex(ValueError, "holds no recording of a flight"):
+            gather_flight(self.folder, self.folder, Channels(), LIMITS)
+
     def test_names_what_a_log_lacks(self):
         log, decisions = self.logs()
         with self.assertRaisesRegex(ValueError, "in.log: holds no decisions on the channel NANOMAP_DECISIONS"):
