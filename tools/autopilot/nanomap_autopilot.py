@@ -11,6 +11,7 @@ input; the program ends with it:
 """
 
 import argparse
+import contextlib
 import json
 import math
 import os
@@ -215,7 +216,8 @@ def main() -> None:
     transport = Udp(arguments.udp) if arguments.udp else Tcp() if arguments.tcp else Serial()
     truth_transport = Udp(arguments.truth_udp) if arguments.truth_udp else None
     vehicle = Vehicle(arguments.altitude, math.radians(arguments.heading))
-    Autopilot(arguments.rules, arguments.loss, vehicle, transport, truth_transport).run()
+    with contextlib.suppress(KeyboardInterrupt):
+        Autopilot(arguments.rules, arguments.loss, vehicle, transport, truth_transport).run()
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 """A program that runs beside this one, and ends with it."""
 
+import contextlib
+import os
 import subprocess
 import threading
 import time
@@ -7,13 +9,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 PATIENCE_S = 10.0  # for a program that was asked to end
+LOWEST_REALTIME_PRIORITY = 1  # the stages of the flight process go first
 
 
 class Child:
     """Its lines are kept, and written to a file; one that is still there at the end is asked to end, then killed."""
 
-    def __init__(self, command: list, lines_file: Path, told: Callable[[str], None] = lambda line: None):
-        """`told` is called with each line, on a thread of its own."""
+    def __init__(self, command: list, lines_file: Path, told: Callable[[str], None] = lambda line: None,
+                 realtime: bool = False):
+        """`told` is called with each line, on a thread of its own. `realtime`: goes before whatever else the machine
+        does, if we may; for a world that has to keep up with the clock."""
         self.name = Path(command[0]).name
         self.lines_file = lines_file
         self._told = told
@@ -21,6 +26,9 @@ class Child:
         self._news = threading.Condition()
         self._process = subprocess.Popen([str(word) for word in command], stdin=subprocess.PIPE,
                                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if realtime:
+            with contextlib.suppress(PermissionError):
+                os.sched_setscheduler(self.pid, os.SCHED_FIFO, os.sched_param(LOWEST_REALTIME_PRIORITY))
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 

@@ -64,7 +64,8 @@ class LiveFlight:
         self.sim = stack.enter_context(Child(
             [options.programs / "nanomap-sim", "--live", "--scene", options.scene, "--duration", options.duration_s,
              "--autopilot", own.truth_url, "--set", lcm, "--out", options.sim_log, *options.sim_arguments],
-            options.folder / "sim.txt", lambda line: options.tell(f"nanomap-sim: {line}")))
+            options.folder / "sim.txt", lambda line: options.tell(f"nanomap-sim: {line}"),
+            realtime=True))
         self.sim.until(lambda: any(PLACED in line for line in self.sim.lines()), SIM_START_S, "the scene")
         self.flight = stack.enter_context(Child(
             [options.programs / "nanomap-flight", "--allow-no-realtime", "--set", lcm, "--set",
@@ -99,7 +100,7 @@ class LiveFlight:
 def live_flight(options: LiveFlightOptions) -> Iterator[LiveFlight]:
     """All programs have ended afterwards."""
     options.folder.mkdir(parents=True, exist_ok=True)
-    with contextlib.suppress(PermissionError):  # a world in real time does not wait for what else the machine does
+    with contextlib.suppress(PermissionError):  # the flight process has threads that are not in real time, too
         os.setpriority(os.PRIO_PROCESS, 0, HIGHEST_PRIORITY)
     with contextlib.ExitStack() as stack:
         yield LiveFlight(options, stack)

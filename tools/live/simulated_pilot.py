@@ -27,7 +27,8 @@ class SimulatedPilot:
         self._heard = heard
         self._child = stack.enter_context(Child(
             [sys.executable, PROGRAM, "--udp", port, "--truth-udp", truth_port, "--altitude", altitude_m,
-             "--heading", heading_deg, "--loss", loss_s], folder / "autopilot.jsonl", self._note))
+             "--heading", heading_deg, "--loss", loss_s], folder / "autopilot.jsonl", self._note,
+            realtime=True))
         self.until(lambda: bool(self.events), START_S, "its first word")
 
     def hand_over(self, check: Callable[[], None] = lambda: None) -> None:

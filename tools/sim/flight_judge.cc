@@ -34,6 +34,8 @@ void FlightJudge::see(Time stamp, const simulation::VehicleState& truth, bool ar
     if (clearance_m < radius_m_) return;
     began_W_ = p_W;
   }
+  if (verdict_.departure && verdict_.outcome == Outcome::kUnderWay) verdict_.flown_m += (p_W - last_W_).norm();
+  last_W_ = p_W;
   const double speed_m_s = truth.velocity_W_m_s.norm();
   verdict_.min_clearance_m = std::min(verdict_.min_clearance_m, clearance_m);
   verdict_.top_speed_m_s = std::max(verdict_.top_speed_m_s, speed_m_s);

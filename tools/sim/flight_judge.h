@@ -23,6 +23,7 @@ struct FlightVerdict {
   Outcome outcome = Outcome::kUnderWay;
   Time end{};                                                        ///< of the outcome, or the last moment seen
   std::optional<Time> departure;                                     ///< when it left its start
+  double flown_m = 0.0;                                              ///< since then
   double min_clearance_m = std::numeric_limits<double>::infinity();  ///< of its centre, to obstacles and ground
   double top_speed_m_s = 0.0;
 };
@@ -44,6 +45,7 @@ class FlightJudge {
   const simulation::Scene& scene_;
   double radius_m_;
   std::optional<Vec3> began_W_;  ///< where it was when it was clear of everything
+  Vec3 last_W_ = Vec3::Zero();   ///< where it was seen last
   FlightVerdict verdict_;
 };
 

@@ -38,6 +38,7 @@ AutopilotPose awaitVehicle(MavlinkLink& link, const std::string& url, const std:
     if (newest && link.autopilot().landed != LandedState::kUnknown) return *newest;
     std::this_thread::sleep_for(kRound);
   }
+  if (stopped()) throw std::runtime_error("stopped while it waited for an autopilot");
   throw std::runtime_error(fmt::format(
       "no autopilot on {} that tells its position, attitude and landed state. Does it run, does it send there, and has "
       "its estimator a position?",

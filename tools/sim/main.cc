@@ -48,14 +48,14 @@ std::string summaryOf(const generate::SensedFlightOptions& options, const genera
   return text.take();
 }
 
-/// Time and speed count from the departure on.
+/// Time, way and speed count from the departure on.
 std::string summaryOf(const generate::SensedFlightOptions& options, const LiveFlight& flight) {
   constexpr double kDegreesARadian = 180.0 / std::numbers::pi;
   const LiveFlightSummary& flown = flight.flown;
   const double flown_s = flown.departure ? toSeconds(flown.end - *flown.departure) : 0.0;
   Text text;
-  text.line("{}", verdictLine(options, flown, flown_s, flight.sensed.flown_m));
-  if (flown.departure) text.line("{}", speedLine(flown, flown_s, flight.sensed.flown_m));
+  text.line("{}", verdictLine(options, flown, flown_s, flown.flown_m));
+  if (flown.departure) text.line("{}", speedLine(flown, flown_s, flown.flown_m));
   text.line("the vehicle's pose between those told: rms {:.1f} mm and {:.2f} degrees, max {:.1f} mm and {:.2f} degrees",
             1e3 * rms(flown.extrapolation.square_sum_m2, flown.extrapolation.count),
             kDegreesARadian * rms(flown.extrapolation.square_sum_rad2, flown.extrapolation.count),

@@ -27,6 +27,19 @@ class SceneFlight(FlightTest):
     def test_warehouse(self):
         self.assert_arrives("warehouse", 6.0)
 
+    def test_wall_with_overhang(self):
+        """It is wider than the camera sees: no planner of local motions gets around it. It stops and looks around."""
+        with live_flight(self.options(scene="wall", duration_s=40.0)) as flight:
+            flight.hand_over()
+            flight.wait()
+            what_happened = self.what_happened(flight)
+            outcome, _, top_m_s, clearance_m = self.judged(flight)
+            self.assertEqual(outcome, "still under way", what_happened)
+            self.assertGreaterEqual(clearance_m, VEHICLE_RADIUS_M, what_happened)
+            self.assertGreater(top_m_s, 6.0, what_happened)
+            self.assertIn("NanoMap: blocked: looking around", flight.pilot.texts(), what_happened)
+            self.assertEqual(flight.pilot.modes(), ["OFFBOARD"], what_happened)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv, verbosity=2)

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace nanomap::sim {
 namespace {
 
@@ -39,6 +41,7 @@ TEST_F(FlightJudgeTest, SeesClearanceSpeedAndDeparture) {
   EXPECT_EQ(judge_.verdict().outcome, Outcome::kUnderWay);
   EXPECT_EQ(judge_.verdict().departure, second(3));
   EXPECT_EQ(judge_.verdict().end, second(4));
+  EXPECT_NEAR(judge_.verdict().flown_m, std::hypot(2.0, 1.2), 1e-9);
   EXPECT_NEAR(judge_.verdict().min_clearance_m, 0.7, 1e-9);
   EXPECT_EQ(judge_.verdict().top_speed_m_s, 5.0);
 }
