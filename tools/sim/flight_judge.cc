@@ -37,9 +37,9 @@ void FlightJudge::see(Time stamp, const simulation::VehicleState& truth, bool ar
   if (verdict_.departure && verdict_.outcome == Outcome::kUnderWay) verdict_.flown_m += (p_W - last_W_).norm();
   last_W_ = p_W;
   const double speed_m_s = truth.velocity_W_m_s.norm();
-  verdict_.min_clearance_m = std::min(verdict_.min_clearance_m, clearance_m);
   verdict_.top_speed_m_s = std::max(verdict_.top_speed_m_s, speed_m_s);
   if (!verdict_.departure && (p_W - *began_W_).head<2>().norm() > kLeft_m) verdict_.departure = stamp;
+  if (verdict_.departure) verdict_.min_clearance_m = std::min(verdict_.min_clearance_m, clearance_m);
   if (clearance_m < radius_m_) {
     verdict_.outcome = Outcome::kCollision;
     verdict_.end = stamp;

@@ -21,10 +21,11 @@ enum class Outcome : std::uint8_t {
 
 struct FlightVerdict {
   Outcome outcome = Outcome::kUnderWay;
-  Time end{};                                                        ///< of the outcome, or the last moment seen
-  std::optional<Time> departure;                                     ///< when it left its start
-  double flown_m = 0.0;                                              ///< since then
-  double min_clearance_m = std::numeric_limits<double>::infinity();  ///< of its centre, to obstacles and ground
+  Time end{};                     ///< of the outcome, or the last moment seen
+  std::optional<Time> departure;  ///< when it left its start
+  double flown_m = 0.0;           ///< since then
+  /// Of its centre, to obstacles and ground, since then: a take-off begins near the ground.
+  double min_clearance_m = std::numeric_limits<double>::infinity();
   double top_speed_m_s = 0.0;
 };
 

@@ -59,6 +59,7 @@ TEST_F(FlightJudgeTest, TouchingTheGroundIsACollisionOnlyAfterTakeOff) {
   judge_.see(second(2), at({0.0, 0.0, 0.39}), false);
   EXPECT_EQ(judge_.verdict().outcome, Outcome::kUnderWay);
   judge_.see(second(3), at({0.0, 0.0, 0.41}), false);
+  EXPECT_GT(judge_.verdict().min_clearance_m, 1e3) << "it has not left its start";
   judge_.see(second(4), at({0.0, 0.0, 0.39}), false);
   EXPECT_EQ(judge_.verdict().outcome, Outcome::kCollision);
 }
