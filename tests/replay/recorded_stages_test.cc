@@ -34,12 +34,12 @@ class NoAutopilot final : public AutopilotLink {
 std::filesystem::path recordStages(unsigned seed) {
   const FlownRecording flown = flownRecording(FlightMessages::kPlain, seed);
   Configuration configuration = flown.configuration;
-  configuration.lcm.clock = ClockDomain::kLog;
+  configuration.lcm.clock = ClockDomain::kRealtime;
   configuration.recorder = {.segment_mb = 1, .total_mb = 100, .buffer_mb = 10};
   const auto folder = testFile("recordings");
   std::filesystem::remove_all(folder);
   NoAutopilot autopilot;
-  Stages stages(configuration, {}, autopilot);
+  Stages stages(configuration, -flown.start.time_since_epoch(), autopilot);  // messages count from 0
   Recorder recorder(folder, configuration,
                     {stages.hand_overs.steps, stages.hand_overs.decisions, stages.hand_overs.setpoints}, flown.start);
 
