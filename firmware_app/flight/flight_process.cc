@@ -31,16 +31,11 @@ FlightProcess::FlightProcess(const FlightOptions& options, MessageSource& source
     return ThreadSettings{std::string(toString(thread)), options_.layout[thread], kDefaultStackBytes,
                           options_.demand_realtime};
   };
-  const auto plain = [](std::string name) {
-    ThreadSettings settings;
-    settings.name = std::move(name);
-    return settings;
-  };
   const auto start = [this](const ThreadSettings& settings, std::function<void()> wait, std::function<void()> work) {
     workers_.push_back(std::make_unique<Worker>(settings, std::move(wait), std::move(work)));
   };
   start(
-      plain("mavlink"), [this] { sleepUntil(next_setpoint_); }, [this] { sink(); });
+      {.name = "mavlink"}, [this] { sleepUntil(next_setpoint_); }, [this] { sink(); });
   start(
       realtime(RealtimeThread::kPlanner), [this] { stages_.hand_overs.planner_bell.wait(kLongestWait); },
       [this] { plan(); });
@@ -53,7 +48,7 @@ FlightProcess::FlightProcess(const FlightOptions& options, MessageSource& source
   start(
       realtime(RealtimeThread::kCapture), [] {}, [this] { stages_.capture(kLongestWait); });
   start(
-      plain("ingest"), [] {}, [this, &source] { ingest(source); });
+      {.name = "ingest"}, [] {}, [this, &source] { ingest(source); });
 
   std::vector<WatchedThread> watched;
   for (const auto& worker : workers_) {
@@ -76,6 +71,11 @@ std::vector<const Worker*> FlightProcess::workers() const {
   for (const auto& worker : workers_) all.push_back(worker.get());
   all.push_back(watcher_.get());
   return all;
+}
+
+bool FlightProcess::allAnswer() const {
+  const bool watched = processNow() - watched_.load(std::memory_order_relaxed) <= kLongestIdle;
+  return watched && !stages_.hand_overs.stalled.load(std::memory_order_relaxed);
 }
 
 std::vector<std::string> FlightProcess::takeStalls() {
@@ -123,10 +123,12 @@ void FlightProcess::sink() {
 }
 
 void FlightProcess::watch() {
-  next_watch_ = processNow() + kWatchPeriod;
-  const auto stalls = watchdog_->judge(processNow());
+  const Time now = processNow();
+  next_watch_ = now + kWatchPeriod;
+  const auto stalls = watchdog_->judge(now);
   for (const Stall& stall : stalls) stalls_.push([&](Stall& slot) { slot = stall; });
   stages_.hand_overs.stalled.store(!stalls.empty(), std::memory_order_relaxed);
+  watched_.store(now, std::memory_order_relaxed);
 }
 
 }  // namespace nanomap

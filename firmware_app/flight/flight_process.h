@@ -11,6 +11,7 @@
 #include "drivers/lcm/message_source.h"
 #include "drivers/mavlink/autopilot_link.h"
 #include "firmware_app/configuration/configuration.h"
+#include "firmware_app/flight/process_clock.h"
 #include "firmware_app/flight/worker.h"
 #include "firmware_app/realtime/thread_layout.h"
 #include "firmware_app/stages/stages.h"
@@ -43,6 +44,9 @@ class FlightProcess {
   /// All threads; those in real time first, by stage.
   [[nodiscard]] std::vector<const Worker*> workers() const;
 
+  /// Every thread shows signs of life, by the word of the watchdog, and so does the watchdog itself.
+  [[nodiscard]] bool allAnswer() const;
+
   /// What the watchdog has found since it was asked last: for one thread, which tells it to people.
   [[nodiscard]] std::vector<std::string> takeStalls();
 
@@ -64,6 +68,7 @@ class FlightProcess {
   Time next_setpoint_{};
 
   std::atomic<bool> source_ended_{false};
+  std::atomic<Time> watched_{processNow()};  ///< when the watchdog looked last
   std::atomic<std::uint64_t> late_setpoints_{0};
   SlotQueue<Stall> stalls_{64};
   std::vector<std::unique_ptr<Worker>> workers_;

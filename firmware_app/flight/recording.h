@@ -17,7 +17,7 @@ class Recording {
   Recording(const std::string& folder, const Configuration& configuration, HandOvers& hand_overs)
       : recorder_(folder, configuration, {hand_overs.steps, hand_overs.decisions, hand_overs.setpoints}, processNow()),
         thread_(
-            std::in_place, settings(), [] { sleepUntil(processNow() + kRecordPeriod); },
+            std::in_place, ThreadSettings{.name = "recorder"}, [] { sleepUntil(processNow() + kRecordPeriod); },
             [this] { recorder_.run(processNow()); }) {}
   /// @pre nobody hands over any more
   ~Recording() {
@@ -30,12 +30,6 @@ class Recording {
   [[nodiscard]] Recorder& recorder() { return recorder_; }
 
  private:
-  [[nodiscard]] static ThreadSettings settings() {
-    ThreadSettings settings;
-    settings.name = "recorder";
-    return settings;
-  }
-
   static constexpr Duration kRecordPeriod = std::chrono::milliseconds(20);
 
   Recorder recorder_;

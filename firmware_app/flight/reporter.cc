@@ -46,7 +46,7 @@ void Reporter::run(const EndSignals& signals) {
     const Time now = processNow();
     monitor_.gather();
     const auto stalls = parts_.process.takeStalls();
-    service_.signOfLife(stalls.empty(), now);
+    service_.signOfLife(parts_.process.allAnswer(), now);
     if (!stalls.empty()) spdlog::error("{}", fmt::join(stalls, "; "));
     if (now >= next) {
       next = now + kHealthPeriod;

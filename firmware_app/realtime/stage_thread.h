@@ -17,8 +17,8 @@ inline constexpr std::size_t kDefaultStackBytes = std::size_t{1} << 20;
 inline constexpr std::size_t kMinStackBytes = std::size_t{1} << 17;
 
 struct ThreadSettings {
-  std::string name;                  ///< 1 to 15 bytes, for ps, top and gdb
-  std::optional<ThreadPlace> place;  ///< empty: a plain thread, on any core, whoever makes it
+  std::string name;                    ///< 1 to 15 bytes, for ps, top and gdb
+  std::optional<ThreadPlace> place{};  ///< empty: a plain thread, on any core, whoever makes it
   std::size_t stack_bytes = kDefaultStackBytes;
   bool demand_realtime = true;  ///< false: where the machine refuses the place, run as far as it grants it
 };

@@ -36,6 +36,10 @@ LocalNedTarget toNed(Time now, const CommandedMotion& commanded, const NedFromWo
 Commander::Commander(const SafetyParameters& parameters, double max_yaw_rate_rad_s)
     : machine_(checked(parameters)), heading_(max_yaw_rate_rad_s) {}
 
+bool isRefused(const CommandInputs& inputs) {
+  return inputs.recording && inputs.autopilot.linked && !inputs.autopilot.simulated;
+}
+
 Command Commander::step(Time now, const CommandInputs& inputs) {
   Command command;
   command.verdict = machine_.step(situationAt(now, inputs));
@@ -64,13 +68,14 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs) const {
     situation.speed_m_s = vehicle.state->velocity_W_m_s.norm();
     situation.anchored = alignment.verdict == AlignmentVerdict::kGood && alignment.epoch == vehicle.state->epoch;
   }
-  if (inputs.plan.in_force) situation.plan = inputs.plan.in_force->stamp;
+  const auto& plan = inputs.plan.in_force;
+  if (plan && vehicle.state && plan->consumed.epoch == vehicle.state->epoch) situation.plan = plan->stamp;
   if (const auto& decision = in_force_.decision()) {
     situation.brake_end = decision->brake.start() + fromSeconds(decision->brake.duration_s());
     situation.anchored_before_jump = decision->consumed.epoch != alignment.epoch;
   }
   situation.linked = inputs.autopilot.linked;
-  situation.live_refused = inputs.recording && inputs.autopilot.linked && !inputs.autopilot.simulated;
+  situation.live_refused = isRefused(inputs);
   situation.armed = inputs.autopilot.armed;
   situation.external_control = inputs.autopilot.external_control;
   situation.external_control_entries = inputs.autopilot.external_control_entries;
@@ -85,6 +90,7 @@ std::optional<CommandedMotion> Commander::motion(Time now, Stream stream, const 
     heading_.reset(now, yaw_W_rad);
     return CommandedMotion{{T_W_B.translation_m, Vec3::Zero(), Vec3::Zero()}, yaw_W_rad, true, std::nullopt};
   }
+  if (!in_force_.decision()) return std::nullopt;
   const Decision& decision = *in_force_.decision();
   const double yaw_W_rad = heading_.follow(now, decision.yaw_W_rad);
   return CommandedMotion{decision.brake.sample(now), yaw_W_rad, stream == Stream::kMotion, in_force_.sequence()};

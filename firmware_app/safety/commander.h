@@ -47,6 +47,9 @@ struct CommandedMotion {
   std::optional<std::uint64_t> decision;  ///< that it was sampled from, by the planner's count; empty for a hold
 };
 
+/// A live autopilot, and a recording to fly by: it is told nothing.
+[[nodiscard]] bool isRefused(const CommandInputs& inputs);
+
 /// What goes to the autopilot.
 struct Command {
   SafetyVerdict verdict;

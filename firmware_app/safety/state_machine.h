@@ -54,7 +54,7 @@ struct Situation {
   bool camera = false;
   std::optional<Time> depth;      ///< newest view of the chain
   std::optional<Time> pose;       ///< newest pose of the chain
-  std::optional<Time> plan;       ///< what the last decision that may be flown was planned for
+  std::optional<Time> plan;       ///< what the last decision that may be flown, of the poses' world, was planned for
   std::optional<Time> brake_end;  ///< when the motion in force stands
   std::optional<double> speed_m_s;
   bool stalled = false;

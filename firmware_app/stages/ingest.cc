@@ -37,13 +37,9 @@ void Ingest::take(InputKind kind, Bytes message, Time arrival) {
 }
 
 void Ingest::takeIn(Input&& input, Time arrival, Duration stamp_shift) {
-  const auto kind = static_cast<InputKind>(input.index());
   shiftStamps(input, stamp_shift);
   const auto stamp = stampOf(input);
-  const Duration delay = stamp ? arrival - *stamp : Duration::zero();
-  if (kind == InputKind::kPose) counters_.newest_pose_delay = delay;
-  if (kind == InputKind::kDepth) counters_.newest_depth_delay = delay;
-  if (delay < -kMaxStampLead) {
+  if (stamp && *stamp - arrival > kMaxStampLead) {
     ++counters_.from_future[input.index()];
   } else {
     hand(std::move(input), arrival, stamp_shift);

@@ -23,8 +23,6 @@ struct IngestCounters {
   std::array<std::array<std::uint64_t, kConvertFaultCount>, kInputKindCount> convert_faults{};
   std::array<std::uint64_t, kInputKindCount> from_future{};
   std::array<std::uint64_t, kInputKindCount> before_clock{};  ///< of a log, before its clock was known
-  Duration newest_pose_delay{};                               ///< from its stamp to its arrival
-  Duration newest_depth_delay{};
 };
 
 /// Where the ingest puts what it has read. Borrowed.

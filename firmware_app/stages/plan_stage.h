@@ -26,7 +26,8 @@ struct PlanPorts {
 class PlanStage {
  public:
   /// @throws std::invalid_argument naming the parameter that is wrong
-  PlanStage(const PlannerParameters& parameters, const PlanPorts& ports);
+  /// @param max_state_lead  by which the state's stamp may be ahead of our clock: more is another clock
+  PlanStage(const PlannerParameters& parameters, Duration max_state_lead, const PlanPorts& ports);
 
   /// Plans for the moment that waits. False if none does.
   /// @param now  what is planned for, cut to whole microseconds; or the state's stamp, if that is a little later
@@ -34,6 +35,7 @@ class PlanStage {
 
  private:
   RecedingHorizon horizon_;
+  Duration max_state_lead_;
   PlanPorts ports_;
   MadeDecision made_;
   std::uint64_t next_sequence_ = 0;

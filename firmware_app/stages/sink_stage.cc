@@ -36,13 +36,14 @@ SinkStage::SinkStage(const SinkParameters& parameters, AutopilotLink& link, cons
       link_(link),
       ports_(ports),
       alignment_(parameters.alignment),
-      commander_(parameters.safety, parameters.max_yaw_rate_rad_s) {}
+      commander_(parameters.safety, parameters.max_yaw_rate_rad_s) {
+  inputs_.recording = parameters.recording;
+}
 
 void SinkStage::run(Time now) {
   link_.keepAlive(status_);
   takeIn(now);
   inputs_.autopilot = link_.autopilot();
-  inputs_.recording = parameters_.recording;
   inputs_.alignment = alignment_.alignment(now);
   inputs_.stalled = ports_.stalled.load(std::memory_order_relaxed);
 
@@ -53,7 +54,8 @@ void SinkStage::run(Time now) {
   if (const auto text = voice_.step(now, command.verdict, inputs_.plan.reason)) {
     if (link_.sendText(text->severity, text->text) == SendResult::kSent) ++counters_.texts;
   }
-  if (parameters_.send_obstacles && !isRefused() && isDue(obstacles_sent_, now, kObstaclePeriod)) sendObstacles(now);
+  if (parameters_.send_obstacles && !isRefused(inputs_) && isDue(obstacles_sent_, now, kObstaclePeriod))
+    sendObstacles(now);
 
   counters_.alignment = alignment_.counters();
   ports_.report.put([&](SinkReport& report) {
@@ -72,7 +74,7 @@ void SinkStage::takeIn(Time now) {
   while (ports_.vehicle.pop([this](const VehicleReport& report) { inputs_.vehicle = report; })) {
     if (!inputs_.vehicle.state) continue;
     alignment_.addWorldPose(poseOf(*inputs_.vehicle.state));
-    if (parameters_.send_odometry && !isRefused() &&
+    if (parameters_.send_odometry && !isRefused(inputs_) &&
         isDue(odometry_sent_, inputs_.vehicle.state->stamp, kOdometryPeriod)) {
       sendOdometry(*inputs_.vehicle.state);
     }
@@ -80,10 +82,6 @@ void SinkStage::takeIn(Time now) {
   while (const auto pose = link_.takePose()) alignment_.addAutopilotPose(*pose);
   const bool planned = ports_.plans.take([this](const PlanReport& report) { inputs_.plan = report; });
   if (planned) ports_.latencies.push([&](Duration& slot) { slot = now - inputs_.plan.newest_view; });
-}
-
-bool SinkStage::isRefused() const {
-  return parameters_.recording && inputs_.autopilot.linked && !inputs_.autopilot.simulated;
 }
 
 void SinkStage::send(Time now, const Command& command) {

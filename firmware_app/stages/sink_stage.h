@@ -77,8 +77,6 @@ class SinkStage {
 
  private:
   void takeIn(Time now);
-  /// A live autopilot, and a recording to fly by.
-  [[nodiscard]] bool isRefused() const;
   void send(Time now, const Command& command);
   void sendOdometry(const VehicleState& state);
   void sendObstacles(Time now);

@@ -39,7 +39,7 @@ Stages::Stages(const Configuration& configuration, Duration realtime_ahead, Auto
       chain(configuration.chain, configuration.camera.has_value(),
             {hand_overs.inputs, hand_overs.indexed, hand_overs.vehicle, hand_overs.newest, hand_overs.moments,
              hand_overs.planner_bell, hand_overs.steps, hand_overs.chain_counters}),
-      plan(configuration.planner,
+      plan(configuration.planner, configuration.safety.max_stamp_lead,
            {hand_overs.moments, hand_overs.flown, hand_overs.plans, hand_overs.decisions, hand_overs.newest_decision}),
       sink(sinkParameters(configuration), link,
            {hand_overs.vehicle, hand_overs.plans, hand_overs.newest, hand_overs.flown, hand_overs.stalled,

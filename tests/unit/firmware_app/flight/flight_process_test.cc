@@ -29,7 +29,6 @@ TEST(FlightProcess, BecomesReadyFliesByOrderAndBrakesWhenTheLogEnds) {
   flight.autopilot.order();
   const Watched after = flight.watch(10s);
   EXPECT_TRUE(after.states.contains(State::kFlying)) << after.last.verdict.faults.words();
-  const Watched ended = flight.watch(0s);
   sleepUntil(processNow() + 1s);
   EXPECT_EQ(flight.autopilot.status(), SystemStatus::kCritical);
   EXPECT_GT(flight.autopilot.targets(), 50U);
