@@ -11,6 +11,14 @@ constexpr float kNotKnown = std::numeric_limits<float>::quiet_NaN();
 
 Vec3f floatsOf(const std::optional<Vec3>& v) { return v ? Vec3f(v->cast<float>()) : Vec3f::Constant(kNotKnown); }
 
+/// Without correlations.
+Mat6 covarianceOf(double first_sd, double second_sd) {
+  Mat6 covariance = Mat6::Zero();
+  covariance.diagonal().head<3>().setConstant(first_sd * first_sd);
+  covariance.diagonal().tail<3>().setConstant(second_sd * second_sd);
+  return covariance;
+}
+
 /// Half a turn about x turns the sign of y and z, and of the angles about them.
 OdometryMessage::Triangle flippedTriangle(const std::optional<Mat6>& covariance) {
   OdometryMessage::Triangle triangle{};
@@ -29,6 +37,16 @@ OdometryMessage::Triangle flippedTriangle(const std::optional<Mat6>& covariance)
 }
 
 }  // namespace
+
+std::optional<Mat6> poseCovariance(const OdometrySpread& spread) {
+  if (spread.position_sd_m <= 0.0 || spread.attitude_sd_rad <= 0.0) return std::nullopt;
+  return covarianceOf(spread.position_sd_m, spread.attitude_sd_rad);
+}
+
+std::optional<Mat6> velocityCovariance(const OdometrySpread& spread) {
+  if (spread.velocity_sd_m_s <= 0.0) return std::nullopt;
+  return covarianceOf(spread.velocity_sd_m_s, std::numeric_limits<double>::quiet_NaN());
+}
 
 OdometryMessage toFrd(const VioOdometry& odometry) {
   constexpr std::uint32_t kLowestByte = 0xFF;

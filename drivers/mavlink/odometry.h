@@ -12,6 +12,19 @@ namespace nanomap {
 /// Position or velocity [m, m/s] first, then roll, pitch and yaw or their rates [rad, rad/s].
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
+/// How wrong poses are that say nothing of it themselves: standard deviations, on each axis. 0: nobody knows.
+struct OdometrySpread {
+  double position_sd_m = 0.0;
+  double attitude_sd_rad = 0.0;
+  double velocity_sd_m_s = 0.0;
+};
+
+/// Of position and attitude; empty unless both are known.
+[[nodiscard]] std::optional<Mat6> poseCovariance(const OdometrySpread& spread);
+
+/// Of the velocity, with NaN for the rates, of which nothing is known; empty if it is not known either.
+[[nodiscard]] std::optional<Mat6> velocityCovariance(const OdometrySpread& spread);
+
 /// What the VIO says about the vehicle at one moment. Absolute (marginal) covariances: they are passed on, never
 /// summed.
 struct VioOdometry {

@@ -222,6 +222,29 @@ TEST(Link, CarriesOdometryInTheAutopilotsTime) {
   EXPECT_NEAR(answer()->at("tc1").get<double>() * 1e-9, answer()->at("ts1").get<double>() * 1e-9, kTolerance_s);
 }
 
+TEST(Link, CarriesHowWrongOdometryIs) {
+  Companion companion(Wire::kUdp);
+  ASSERT_TRUE(companion.untilLinked());
+  const OdometrySpread spread{.position_sd_m = 0.5, .attitude_sd_rad = 0.25, .velocity_sd_m_s = 2.0};
+  VioOdometry odometry;
+  odometry.stamp = monotonicNow();
+  odometry.velocity_W_m_s = Vec3(1.0, 0.0, 0.0);
+  odometry.pose_covariance_W = poseCovariance(spread);
+  odometry.velocity_covariance_B = velocityCovariance(spread);
+  ASSERT_EQ(companion.link.send(toFrd(odometry)), SendResult::kSent);
+  ASSERT_TRUE(companion.untilReceived("ODOMETRY"));
+  const json fields = companion.autopilot.messages("ODOMETRY").front().at("fields");
+  for (const std::size_t x_y_z : {0U, 6U, 11U}) {
+    EXPECT_EQ(fields.at("pose_covariance").at(x_y_z), 0.25);
+    EXPECT_EQ(fields.at("velocity_covariance").at(x_y_z), 4.0);
+  }
+  for (const std::size_t roll_pitch_yaw : {15U, 18U, 20U}) {
+    EXPECT_EQ(fields.at("pose_covariance").at(roll_pitch_yaw), 0.0625);
+    EXPECT_TRUE(fields.at("velocity_covariance").at(roll_pitch_yaw).is_null());
+  }
+  EXPECT_EQ(fields.at("pose_covariance").at(1), 0.0);
+}
+
 TEST(Link, CarriesStatusTexts) {
   Companion companion(Wire::kUdp);
   ASSERT_TRUE(companion.untilLinked());

@@ -64,6 +64,26 @@ TEST(Odometry, SaysWhatIsNotKnown) {
   EXPECT_TRUE(std::isnan(message.velocity_covariance[0]));
 }
 
+TEST(Odometry, SpreadIsACovarianceOnceItIsKnown) {
+  EXPECT_FALSE(poseCovariance({}));
+  EXPECT_FALSE(poseCovariance({.position_sd_m = 0.1})) << "half of one";
+  EXPECT_FALSE(velocityCovariance({.position_sd_m = 0.1, .attitude_sd_rad = 0.02}));
+  VioOdometry given = odometry();
+  const OdometrySpread spread{.position_sd_m = 0.1, .attitude_sd_rad = 0.02, .velocity_sd_m_s = 0.3};
+  given.pose_covariance_W = poseCovariance(spread);
+  given.velocity_covariance_B = velocityCovariance(spread);
+  const OdometryMessage message = toFrd(given);
+  for (const std::size_t x_y_z : {0U, 6U, 11U}) {
+    EXPECT_FLOAT_EQ(message.pose_covariance[x_y_z], 0.01F);
+    EXPECT_FLOAT_EQ(message.velocity_covariance[x_y_z], 0.09F);
+  }
+  for (const std::size_t roll_pitch_yaw : {15U, 18U, 20U}) {
+    EXPECT_FLOAT_EQ(message.pose_covariance[roll_pitch_yaw], 0.0004F);
+    EXPECT_TRUE(std::isnan(message.velocity_covariance[roll_pitch_yaw])) << "of rates that are not told";
+  }
+  EXPECT_EQ(message.pose_covariance[1], 0.0F);
+}
+
 TEST(Odometry, CountsResetsByEpochAndTellsFailure) {
   VioOdometry given = odometry();
   given.epoch = 258;
