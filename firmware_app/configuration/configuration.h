@@ -12,6 +12,7 @@
 #include "drivers/mavlink/alignment_estimator.h"
 #include "drivers/mavlink/link_parameters.h"
 #include "drivers/mavlink/obstacle_distance.h"
+#include "drivers/mavlink/odometry.h"
 #include "firmware_app/realtime/thread_layout.h"
 #include "firmware_app/safety/safety_parameters.h"
 #include "planner/planner_parameters.h"
@@ -56,6 +57,7 @@ struct MavlinkParameters {
   bool send_obstacles = true;  ///< OBSTACLE_DISTANCE
   ObstacleBand obstacle_band;
   bool send_odometry = false;  ///< ODOMETRY: the autopilot flies by our estimator
+  OdometrySpread odometry;
 };
 
 /// How much of flights is kept, and what may wait to be written.
@@ -75,6 +77,7 @@ struct Configuration {
   LcmParameters lcm;
   MavlinkParameters mavlink;
   SafetyParameters safety;
+  Duration frame_deadline = std::chrono::milliseconds(33);  ///< in [safety]; from a frame's arrival to its plan
   RecorderParameters recorder;
   std::optional<ThreadLayout> layout;  ///< [realtime]; empty: as the machine's cores suggest
 };

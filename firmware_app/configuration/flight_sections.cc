@@ -40,7 +40,19 @@ Section mavlinkSection() {
            "send_odometry",
            "Send ODOMETRY: the autopilot flies by the poses that we get. PX4: EKF2_EV_CTRL; ArduPilot: EK3_SRC1_*,\n"
            "VISO_TYPE.",
-           [](auto& c) -> auto& { return c.mavlink.send_odometry; })},
+           [](auto& c) -> auto& { return c.mavlink.send_odometry; }),
+       numberKey(
+           "odometry_position_sd_m",
+           "How wrong those poses are, which do not say so themselves: the standard deviation on each axis; 0 tells "
+           "the\n"
+           "autopilot that nobody knows.",
+           {0.0, 100.0}, [](auto& c) -> auto& { return c.mavlink.odometry.position_sd_m; }),
+       numberKey(
+           "odometry_attitude_sd_rad", "The same about each axis. Both or neither.", {0.0, 3.2},
+           [](auto& c) -> auto& { return c.mavlink.odometry.attitude_sd_rad; }),
+       numberKey(
+           "odometry_velocity_sd_m_s", "The same of the velocity; 0: nobody knows.", {0.0, 100.0},
+           [](auto& c) -> auto& { return c.mavlink.odometry.velocity_sd_m_s; })},
       {}};
 }
 
@@ -78,43 +90,60 @@ Section alignmentSection() {
 }
 
 Section safetySection() {
-  return {"safety",
-          "When what is known is too old to fly on. Then the brake that was verified with the last good plan is flown, "
-          "and\n"
-          "after it nothing is sent any more, so that the autopilot's own failsafe acts.",
-          {durationKey(
-               "max_plan_age_s", "Of the plan that is flown. planner.brake_after_s must cover it.", kDuration_s,
-               [](auto& c) -> auto& { return c.safety.max_plan_age; }),
-           durationKey(
-               "max_depth_age_s", "Of the newest depth frame, from its exposure.", kDuration_s,
-               [](auto& c) -> auto& { return c.safety.max_depth_age; }),
-           durationKey(
-               "max_pose_age_s", "Of the newest pose.", kDuration_s,
-               [](auto& c) -> auto& { return c.safety.max_pose_age; }),
-           durationKey(
-               "max_stamp_lead_s", "Stamps farther ahead of our clock are of another clock.", kDuration_s,
-               [](auto& c) -> auto& { return c.safety.max_stamp_lead; }),
-           durationKey(
-               "max_step_s", "This process was held up if it did not send for longer.", kDuration_s,
-               [](auto& c) -> auto& { return c.safety.max_step; }),
-           durationKey(
-               "critical_after_s", "A fault in flight that has lasted for this is critical.", kDuration_s,
-               [](auto& c) -> auto& { return c.safety.critical_after; }),
-           durationKey(
-               "settle_s", "So long without a fault, and it counts as over.", kDuration_s,
-               [](auto& c) -> auto& { return c.safety.settle; }),
-           durationKey(
-               "patience_s",
-               "A vehicle that stands is let go when a fault has lasted for this; not below\n"
-               "critical_after_s.",
-               kDuration_s, [](auto& c) -> auto& { return c.safety.patience; }),
-           durationKey(
-               "stop_margin_s", "This long after a brake should have ended, the vehicle is let go in any case.",
-               kDuration_s, [](auto& c) -> auto& { return c.safety.stop_margin; }),
-           numberKey(
-               "standstill_m_s", "A slower vehicle stands.", {0.0, 10.0, true},
-               [](auto& c) -> auto& { return c.safety.standstill_m_s; })},
-          {}};
+  return {
+      "safety",
+      "When what is known is too old to fly on. Then the brake that was verified with the last good plan is flown, "
+      "and\n"
+      "after it nothing is sent any more, so that the autopilot's own failsafe acts.",
+      {durationKey(
+           "max_plan_age_s", "Of the plan that is flown. planner.brake_after_s must cover it.", kDuration_s,
+           [](auto& c) -> auto& { return c.safety.max_plan_age; }),
+       durationKey(
+           "max_depth_age_s", "Of the newest depth frame, from its exposure.", kDuration_s,
+           [](auto& c) -> auto& { return c.safety.max_depth_age; }),
+       durationKey(
+           "max_pose_age_s", "Of the newest pose.", kDuration_s,
+           [](auto& c) -> auto& { return c.safety.max_pose_age; }),
+       durationKey(
+           "max_stamp_lead_s", "Stamps farther ahead of our clock are of another clock.", kDuration_s,
+           [](auto& c) -> auto& { return c.safety.max_stamp_lead; }),
+       durationKey(
+           "max_step_s", "This process was held up if it did not send for longer.", kDuration_s,
+           [](auto& c) -> auto& { return c.safety.max_step; }),
+       durationKey(
+           "critical_after_s", "A fault in flight that has lasted for this is critical.", kDuration_s,
+           [](auto& c) -> auto& { return c.safety.critical_after; }),
+       durationKey(
+           "settle_s", "So long without a fault, and it counts as over.", kDuration_s,
+           [](auto& c) -> auto& { return c.safety.settle; }),
+       durationKey(
+           "patience_s",
+           "A vehicle that stands is let go when a fault has lasted for this; not below\n"
+           "critical_after_s.",
+           kDuration_s, [](auto& c) -> auto& { return c.safety.patience; }),
+       durationKey(
+           "stop_margin_s", "This long after a brake should have ended, the vehicle is let go in any case.",
+           kDuration_s, [](auto& c) -> auto& { return c.safety.stop_margin; }),
+       numberKey(
+           "standstill_m_s", "A slower vehicle stands.", {0.0, 10.0, true},
+           [](auto& c) -> auto& { return c.safety.standstill_m_s; }),
+       integerKey(
+           "stuck_depth_images",
+           "The camera is stuck if so many depth frames after one are the same to the last count,", {0, 1000},
+           [](auto& c) -> auto& { return c.safety.stuck_depth.images; }),
+       numberKey(
+           "stuck_depth_motion_m",
+           "and the poses have moved this far meanwhile: a frame without noise is no fault of a vehicle that stands.",
+           {0.0, 100.0}, [](auto& c) -> auto& { return c.safety.stuck_depth.motion_m; }),
+       numberKey(
+           "stuck_depth_turn_rad", "Or have turned by this. stuck_depth_images = 0 switches this off.", {0.0, 3.2},
+           [](auto& c) -> auto& { return c.safety.stuck_depth.turn_rad; }),
+       durationKey(
+           "frame_deadline_s",
+           "A depth frame that has not been indexed, put into the chain and planned with within this time of its\n"
+           "arrival is late; health counts these, by stage.",
+           kDuration_s, [](auto& c) -> auto& { return c.frame_deadline; })},
+      {}};
 }
 
 Section recorderSection() {

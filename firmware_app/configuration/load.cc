@@ -56,6 +56,7 @@ class Reader {
     checkPlanner();
     checkChannels();
     checkRecorder();
+    checkOdometry();
     if (!faults_.empty()) throw ConfigurationError(fmt::format("{}", fmt::join(faults_, "\n")));
     return configuration_;
   }
@@ -149,6 +150,16 @@ class Reader {
     if (recorder.total_mb < 2 * recorder.segment_mb) {
       faults_.push_back(fmt::format("[recorder]: total_mb = {} must be at least twice segment_mb = {}",
                                     recorder.total_mb, recorder.segment_mb));
+    }
+  }
+
+  void checkOdometry() {
+    const OdometrySpread& odometry = configuration_.mavlink.odometry;
+    if ((odometry.position_sd_m > 0.0) != (odometry.attitude_sd_rad > 0.0)) {
+      faults_.emplace_back(
+          "[mavlink]: odometry_position_sd_m and odometry_attitude_sd_rad must be above 0 both, or neither: MAVLink "
+          "knows "
+          "no half of a covariance");
     }
   }
 

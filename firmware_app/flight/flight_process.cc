@@ -26,7 +26,12 @@ void timed(SlotQueue<Duration>& times, Work&& work) {
 }  // namespace
 
 FlightProcess::FlightProcess(const FlightOptions& options, MessageSource& source, Stages& stages)
-    : options_(options), setpoint_period_(fromSeconds(1.0 / options.setpoint_rate_hz)), stages_(stages) {
+    : options_(options),
+      setpoint_period_(fromSeconds(1.0 / options.setpoint_rate_hz)),
+      stages_(stages),
+      index_deadline_(options.frame_deadline),
+      chain_deadline_(options.frame_deadline),
+      planner_deadline_(options.frame_deadline) {
   const auto realtime = [&](RealtimeThread thread) {
     return ThreadSettings{std::string(toString(thread)), options_.layout[thread], kDefaultStackBytes,
                           options_.demand_realtime};
@@ -93,7 +98,9 @@ void FlightProcess::ingest(MessageSource& source) {
   const auto wait = source.wait(kLongestWait, [this](const ReceivedMessage& message) {
     const auto kind = stages_.ingest.kindOf(message.channel);
     if (!kind) return;
-    const Time arrival = stages_.ingest.arrivalAt(processNow());
+    const Time now = processNow();
+    stages_.ingest.noteRealtime(realtimeAhead(), now);
+    const Time arrival = stages_.ingest.arrivalAt(now);
     options_.on_message(message, arrival);
     stages_.ingest.take(*kind, message.bytes, arrival);
   });
@@ -102,14 +109,17 @@ void FlightProcess::ingest(MessageSource& source) {
 
 void FlightProcess::index() {
   timed(stages_.hand_overs.index_times, [this] { return stages_.index.run() > 0; });
+  if (const auto frame = stages_.index.newestFrame()) index_deadline_.done(*frame, processNow());
 }
 
 void FlightProcess::chain() {
   timed(stages_.hand_overs.chain_times, [this] { return stages_.chain.run(processNow()) > 0; });
+  if (const auto frame = stages_.chain.newestFrame()) chain_deadline_.done(*frame, processNow());
 }
 
 void FlightProcess::plan() {
   timed(stages_.hand_overs.plan_times, [this] { return stages_.plan.run(processNow()); });
+  planner_deadline_.done(stages_.plan.newestFrame(), processNow());
 }
 
 void FlightProcess::sink() {

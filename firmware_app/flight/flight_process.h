@@ -11,6 +11,7 @@
 #include "drivers/lcm/message_source.h"
 #include "drivers/mavlink/autopilot_link.h"
 #include "firmware_app/configuration/configuration.h"
+#include "firmware_app/flight/frame_deadline.h"
 #include "firmware_app/flight/process_clock.h"
 #include "firmware_app/flight/worker.h"
 #include "firmware_app/realtime/thread_layout.h"
@@ -22,9 +23,17 @@ namespace nanomap {
 struct FlightOptions {
   ThreadLayout layout;
   double setpoint_rate_hz = 50.0;
+  Duration frame_deadline = std::chrono::milliseconds(33);  ///< from a depth frame's arrival to the plan that knows it
   bool demand_realtime = true;
   /// Told every message of a configured channel as it arrived, on the ingest's thread, before anyone else.
   std::function<void(const ReceivedMessage&, Time arrival)> on_message = [](const ReceivedMessage&, Time) {};
+};
+
+/// Depth frames that had not left a stage by their deadline.
+struct LateFrames {
+  std::uint64_t index = 0;
+  std::uint64_t chain = 0;    ///< those of the index stage among them
+  std::uint64_t planner = 0;  ///< those of the chain among them, unless they were never planned with
 };
 
 /// The stages on their threads, from messages to setpoints: what flies. Recorder and health take from its hand-overs.
@@ -50,6 +59,10 @@ class FlightProcess {
   /// What the watchdog has found since it was asked last: for one thread, which tells it to people.
   [[nodiscard]] std::vector<std::string> takeStalls();
 
+  [[nodiscard]] LateFrames lateFrames() const {
+    return {index_deadline_.missed(), chain_deadline_.missed(), planner_deadline_.missed()};
+  }
+
   /// Rounds of the sink that began late by more than half a period.
   [[nodiscard]] std::uint64_t lateSetpoints() const { return late_setpoints_.load(std::memory_order_relaxed); }
 
@@ -70,6 +83,9 @@ class FlightProcess {
   std::atomic<bool> source_ended_{false};
   std::atomic<Time> watched_{processNow()};  ///< when the watchdog looked last
   std::atomic<std::uint64_t> late_setpoints_{0};
+  FrameDeadline index_deadline_;
+  FrameDeadline chain_deadline_;
+  FrameDeadline planner_deadline_;
   SlotQueue<Stall> stalls_{64};
   std::vector<std::unique_ptr<Worker>> workers_;
   std::unique_ptr<Watchdog> watchdog_;

@@ -50,6 +50,7 @@ int run(const FlightArguments& arguments) {
   FlightOptions options;
   options.layout = surroundings.layout;
   options.setpoint_rate_hz = configuration.mavlink.setpoint_rate_hz;
+  options.frame_deadline = configuration.frame_deadline;
   options.demand_realtime = !arguments.allow_no_realtime;
   if (!arguments.record.empty()) {
     recording.emplace(arguments.record, configuration, stages.hand_overs);

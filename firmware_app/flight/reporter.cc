@@ -20,9 +20,13 @@ constexpr Duration kAfterTheEnd = std::chrono::seconds(1);
 
 NamedCounters othersOf(const ReportedParts& parts) {
   const LinkCounters link = parts.link.counters();
+  const LateFrames late = parts.process.lateFrames();
   NamedCounters others{{"late setpoints", parts.process.lateSetpoints()},
                        {"setpoints held back as stale", link.stale_setpoints},
-                       {"lcm: datagrams lost", parts.network.loss().datagrams},
+                       {"late frames: index", late.index},
+                       {"late frames: chain", late.chain},
+                       {std::string(kLateFrames), late.planner},
+                       {std::string(kLostDatagrams), parts.network.loss().datagrams},
                        {"lcm: full queues", parts.network.loss().full_queues}};
   for (const Worker* worker : parts.process.workers()) {
     if (!worker->settings().place) continue;
@@ -59,12 +63,17 @@ void Reporter::run(const EndSignals& signals) {
     }
   }
   service_.stopping("stopped");
+  spdlog::info("in all: {}", countersLine(monitor_.report(processNow(), others())));
+}
+
+NamedCounters Reporter::others() {
+  NamedCounters others = othersOf(parts_);
+  if (parts_.recorder != nullptr) tellOfRecording(others);
+  return others;
 }
 
 void Reporter::tell(Time now) {
-  NamedCounters others = othersOf(parts_);
-  if (parts_.recorder != nullptr) tellOfRecording(others);
-  const health_t health = monitor_.report(now, others);
+  const health_t health = monitor_.report(now, others());
   if (parts_.recorder != nullptr) parts_.recorder->onHealth(health);
   if (!encodeInto(health, encoded_) || !parts_.network.publish(health_channel_, encoded_)) {
     spdlog::warn("the health report was not sent over LCM");

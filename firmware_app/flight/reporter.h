@@ -36,6 +36,7 @@ class Reporter {
 
  private:
   void tell(Time now);
+  [[nodiscard]] NamedCounters others();
   void tellOfRecording(NamedCounters& others);
 
   ReportedParts parts_;

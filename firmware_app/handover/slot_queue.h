@@ -45,6 +45,9 @@ class SlotQueue {
     return true;
   }
 
+  /// For the producer: the next push() finds a free slot.
+  [[nodiscard]] bool hasRoom() const { return free_.read_available() > 0; }
+
   /// Slots queued. A moment later it may be another number.
   [[nodiscard]] std::size_t size() const { return full_.read_available(); }
   [[nodiscard]] std::size_t capacity() const { return slots_.size(); }

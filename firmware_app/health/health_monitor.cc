@@ -74,6 +74,28 @@ std::int64_t counterOf(const health_t& health, std::string_view name) {
 }
 
 constexpr std::string_view kDropped = "dropped on the way";
+constexpr std::string_view kClockSet = "time of day: set";
+
+/// Streams whose loss is told.
+constexpr std::array kCountedStreams = {InputKind::kDepth, InputKind::kPose, InputKind::kCorrection};
+
+std::string missingOf(InputKind kind) { return std::string(toString(kind)) + ": missing"; }
+std::string suspectedOf(InputKind kind) { return std::string(toString(kind)) + ": suspected missing"; }
+
+/// "depth frames 10, datagrams 33", of what is not zero.
+std::string lostOf(const health_t& health) {
+  std::string lost;
+  const auto add = [&lost](std::string_view what, std::int64_t count) {
+    if (count == 0) return;
+    if (!lost.empty()) lost += ", ";
+    lost += fmt::format("{} {}", what, count);
+  };
+  for (const InputKind kind : kCountedStreams) {
+    add(toString(kind), counterOf(health, missingOf(kind)) + counterOf(health, suspectedOf(kind)));
+  }
+  add("datagrams", counterOf(health, kLostDatagrams));
+  return lost;
+}
 
 }  // namespace
 
@@ -88,7 +110,7 @@ void HealthMonitor::gather() {
   drain(hand_overs_.setpoint_latencies, kExposureToSetpoint);
   hand_overs_.ingest_counters.take([this](const IngestCounters& counters) { ingest_ = counters; });
   hand_overs_.index_counters.take([this](const IndexCounters& counters) { index_ = counters; });
-  hand_overs_.chain_counters.take([this](const ChainCounters& counters) { chain_ = counters; });
+  hand_overs_.chain_counters.take([this](const ChainStageCounters& counters) { chain_ = counters; });
   hand_overs_.sink_report.take([this](const SinkReport& report) { sink_ = report; });
   hand_overs_.newest_decision.take([this](const MadeDecision& decision) { decision_ = decision; });
 }
@@ -128,18 +150,26 @@ void HealthMonitor::addCounters(health_t& health, const NamedCounters& others) c
     list.add(kind, ingest_.messages[i]);
     list.addEach<DecodeFault>(kind + ": ", ingest_.decode_faults[i]);
     list.addEach<ConvertFault>(kind + ": ", ingest_.convert_faults[i]);
+    list.addIfAny(missingOf(static_cast<InputKind>(i)), ingest_.loss[i].missing);
+    list.addIfAny(suspectedOf(static_cast<InputKind>(i)), ingest_.loss[i].suspected);
+    list.addIfAny(kind + ": repeated", ingest_.loss[i].repeated);
+    list.addIfAny(kind + ": late", ingest_.loss[i].late);
+    list.addIfAny(kind + ": began again", ingest_.loss[i].began_again);
     list.addIfAny(kind + ": ahead of our clock", ingest_.from_future[i]);
     list.addIfAny(kind + ": before the log's clock was known", ingest_.before_clock[i]);
   }
+  list.addIfAny(std::string(kClockSet), ingest_.clock_steps);
   list.add("views", index_.views);
   list.addEach<ImageFault>("frames: ", index_.image_faults);
   list.addEach<CameraFault>("frames: ", index_.camera_faults);
-  list.addEach<ViewDrop>("views: ", chain_.views_dropped);
-  for (std::size_t i = 1; i < chain_.poses.size(); ++i) {
-    list.addIfAny("poses: " + std::string(toString(static_cast<PoseVerdict>(i))), chain_.poses[i]);
+  const ChainCounters& chain = chain_.chain;
+  list.addEach<ViewDrop>("views: ", chain.views_dropped);
+  list.addIfAny("views: of a camera that is stuck", chain_.stuck_views);
+  for (std::size_t i = 1; i < chain.poses.size(); ++i) {
+    list.addIfAny("poses: " + std::string(toString(static_cast<PoseVerdict>(i))), chain.poses[i]);
   }
-  for (std::size_t i = 1; i < chain_.corrections.size(); ++i) {
-    list.addIfAny("corrections: " + std::string(toString(static_cast<CorrectionVerdict>(i))), chain_.corrections[i]);
+  for (std::size_t i = 1; i < chain.corrections.size(); ++i) {
+    list.addIfAny("corrections: " + std::string(toString(static_cast<CorrectionVerdict>(i))), chain.corrections[i]);
   }
   list.add("decisions", decision_ ? decision_->sequence + 1 : 0);
   list.add("setpoints", sink_.counters.setpoints);
@@ -150,6 +180,7 @@ void HealthMonitor::addCounters(health_t& health, const NamedCounters& others) c
                                 hand_overs_.vehicle.dropped();
   list.add(std::string(kDropped), dropped);
   list.addIfAny("dropped: for the chain", hand_overs_.inputs.dropped());
+  list.addIfAny("dropped: camera models for the index", hand_overs_.cameras.dropped());
   list.addIfAny("dropped: frames for the index", hand_overs_.captured.dropped());
   list.addIfAny("dropped: views for the chain", hand_overs_.indexed.dropped());
   list.addIfAny("dropped: poses for the sink", hand_overs_.vehicle.dropped());
@@ -168,6 +199,20 @@ std::string statusLine(const health_t& health) {
   }
   if (const std::int64_t dropped = counterOf(health, kDropped); dropped > 0)
     line += fmt::format(" | dropped {}", dropped);
+  if (const std::string lost = lostOf(health); !lost.empty()) line += " | lost: " + lost;
+  if (const std::int64_t late = counterOf(health, kLateFrames); late > 0)
+    line += fmt::format(" | late frames {}", late);
+  if (const std::int64_t set = counterOf(health, kClockSet); set > 0) line += fmt::format(" | time of day set {}", set);
+  return line;
+}
+
+std::string countersLine(const health_t& health) {
+  std::string line;
+  for (const counter_t& counter : health.counters) {
+    if (counter.value == 0) continue;
+    if (!line.empty()) line += ", ";
+    line += fmt::format("{} {}", counter.name, counter.value);
+  }
   return line;
 }
 

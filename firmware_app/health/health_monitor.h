@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,10 @@ namespace nanomap {
 
 /// Counters that come from elsewhere than the stages' hand-overs: names in words, as they are shown.
 using NamedCounters = std::vector<std::pair<std::string, std::uint64_t>>;
+
+/// Names among those that the line on the terminal tells, too.
+inline constexpr std::string_view kLostDatagrams = "lcm: datagrams lost";
+inline constexpr std::string_view kLateFrames = "late frames: planner";
 
 /// Gathers how the process is, from what the stages put into their hand-overs for it: state, ages, latencies since the
 /// last report and counters since the start. Threads: one. Allocates.
@@ -39,7 +44,7 @@ class HealthMonitor {
   std::array<LatencyHistogram, kLatencyCount> latencies_;
   IngestCounters ingest_;
   IndexCounters index_;
-  ChainCounters chain_;
+  ChainStageCounters chain_;
   SinkReport sink_;
   std::optional<MadeDecision> decision_;
   std::int64_t sequence_ = 0;
@@ -47,5 +52,8 @@ class HealthMonitor {
 
 /// The same in one line, for a terminal: state, reason, ages, latencies, what was lost.
 [[nodiscard]] std::string statusLine(const health_t& health);
+
+/// Every counter that is not zero, in one line: what there was in all, for the end.
+[[nodiscard]] std::string countersLine(const health_t& health);
 
 }  // namespace nanomap

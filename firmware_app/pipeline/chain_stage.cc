@@ -26,6 +26,10 @@ std::size_t ChainStage::take(const Goal& goal) {
 }
 
 std::size_t ChainStage::take(ViewPtr view) {
+  if (camera_.see(view, state_)) {
+    ++stuck_views_;
+    return 0;
+  }
   const Chain::ViewOutcome entered = chain_.addView(std::move(view));
   return entered.waiting || entered.drop ? 0 : 1;
 }

@@ -18,7 +18,7 @@ Outcome take(Bytes bytes, Convert&& convert, Wrap&& wrap) {
   return Input(wrap(message, std::move(std::get<0>(converted))));
 }
 
-constexpr auto kOfUnnamedCamera = [](const auto&, DepthImage image) { return DepthInput{{}, std::move(image)}; };
+constexpr auto kOfUnnamedCamera = [](const auto&, DepthImage image) { return DepthInput{{}, std::move(image), false}; };
 
 }  // namespace
 
@@ -100,7 +100,7 @@ Outcome MessageIntake::readPose(Bytes message) {
   };
   return take<bot_core::pose_t>(message, convert, [this](const auto&, BodyPose pose) {
     pose.epoch = epochs_.assign(pose.stamp, pose.T_W_B);
-    return PoseInput{std::move(pose), std::nullopt};
+    return PoseInput{std::move(pose), std::nullopt, false};
   });
 }
 

@@ -31,6 +31,7 @@ inline constexpr std::size_t kInputKindCount = 5;
 struct PoseInput {
   BodyPose pose;
   std::optional<BodyMotion> motion;  ///< empty: the message does not say
+  bool numbered = true;              ///< by its publisher, else by us
 };
 
 struct CameraInput {
@@ -41,6 +42,7 @@ struct CameraInput {
 struct DepthInput {
   std::string camera;  ///< empty: the message does not say
   DepthImage image;
+  bool numbered = true;  ///< by its publisher, else by us
 };
 
 /// Alternatives in the order of InputKind.

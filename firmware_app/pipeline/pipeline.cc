@@ -17,7 +17,7 @@ Pipeline::Pipeline(const Configuration& configuration)
     : intake_(configuration.lcm),
       view_builder_(configuration.camera, configuration.index,
                     configuration.chain.history_views + configuration.chain.waiting_views),
-      chain_(configuration.chain) {}
+      chain_(configuration.chain, configuration.safety.stuck_depth) {}
 
 Pipeline::Outcome Pipeline::feed(InputKind kind, Bytes message) {
   auto input = read(kind, message);

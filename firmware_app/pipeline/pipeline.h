@@ -46,6 +46,7 @@ class Pipeline {
 
   [[nodiscard]] std::optional<InputKind> kindOf(std::string_view channel) const { return intake_.kindOf(channel); }
   [[nodiscard]] const Chain& chain() const { return chain_.chain(); }
+  [[nodiscard]] std::uint64_t stuckViews() const { return chain_.counters().stuck_views; }
   [[nodiscard]] const std::optional<VehicleState>& state() const { return chain_.state(); }
   [[nodiscard]] const std::optional<Goal>& goal() const { return chain_.goal(); }
   [[nodiscard]] const ViewBuilder& viewBuilder() const { return view_builder_; }

@@ -1,6 +1,7 @@
 #include "firmware_app/pipeline/stamp_clock.h"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 namespace nanomap {
@@ -16,12 +17,23 @@ void move(Time& stamp, Duration shift) {
 
 }  // namespace
 
-StampClock::StampClock(ClockDomain domain, Duration realtime_ahead) {
+StampClock::StampClock(ClockDomain domain, Duration realtime_ahead) : domain_(domain) {
   if (domain == ClockDomain::kMonotonic) shift_ = Duration::zero();
   if (domain == ClockDomain::kRealtime) shift_ = -realtime_ahead;
 }
 
+std::optional<Duration> StampClock::noteRealtime(Duration realtime_ahead, Time now) {
+  if (domain_ != ClockDomain::kRealtime) return std::nullopt;
+  const Duration set_by = realtime_ahead + *shift_;
+  const Time measured_before = std::exchange(measured_, now);
+  if (std::chrono::abs(set_by) < kSmallestStep) return std::nullopt;
+  step_ = {measured_before, now, *shift_};
+  shift_ = -realtime_ahead;
+  return set_by;
+}
+
 std::optional<Duration> StampClock::shift(InputKind kind, Time stamp, Time arrival) {
+  if (step_ && isFromBefore(*step_, stamp, arrival)) return step_->shift_before;
   if (shift_) return shift_;
   if (kind == InputKind::kGoal) return arrival - stamp;  // holds from now on
   if (kind != InputKind::kPose) return std::nullopt;
@@ -33,6 +45,11 @@ std::optional<Duration> StampClock::shift(InputKind kind, Time stamp, Time arriv
   least_ = std::min(least_, difference);
   if (arrival - *listening_since_ >= kLogListening) shift_ = least_ - kPoseDelay;
   return shift_;
+}
+
+bool StampClock::isFromBefore(const Step& step, Time stamp, Time arrival) const {
+  const Time if_after = stamp + *shift_;
+  return stamp + step.shift_before <= step.latest && (if_after < step.earliest || if_after > arrival + kMaxLead);
 }
 
 std::optional<Time> stampOf(const Input& input) {

@@ -62,6 +62,7 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs) const {
   situation.now = now;
   situation.camera = vehicle.camera;
   situation.depth = vehicle.newest_view;
+  situation.depth_stuck = vehicle.camera_stuck;
   situation.stalled = inputs.stalled;
   if (vehicle.state) {
     situation.pose = vehicle.state->stamp;

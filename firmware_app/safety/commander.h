@@ -17,6 +17,7 @@ namespace nanomap {
 /// What the chain knows of the vehicle.
 struct VehicleReport {
   bool camera = false;
+  bool camera_stuck = false;          ///< shows the same picture again and again, while the vehicle moves
   std::optional<VehicleState> state;  ///< at the newest pose
   std::optional<Time> newest_view;
 };

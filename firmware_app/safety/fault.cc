@@ -12,6 +12,8 @@ std::string_view toString(Fault fault) {
       return "camera model";
     case Fault::kDepth:
       return "depth images";
+    case Fault::kDepthStuck:
+      return "depth images that change";
     case Fault::kPose:
       return "poses";
     case Fault::kClock:

@@ -10,18 +10,19 @@ namespace nanomap {
 
 /// What keeps the vehicle from being flown by us, in the order in which it is worth being told.
 enum class Fault : std::uint8_t {
-  kHeldUp,     ///< this process did not run for a while
-  kStalled,    ///< one of its threads does not answer
-  kCamera,     ///< nobody has said yet what the camera is
-  kDepth,      ///< no depth image, or too old a one
-  kPose,       ///< no pose, or too old a one
-  kClock,      ///< stamps ahead of our time: another clock
-  kPlan,       ///< no plan, or too old a one
-  kAutopilot,  ///< no autopilot is heard
-  kAlignment,  ///< T_NED_W is not known well enough
-  kLive,       ///< what we see is a recording, and the autopilot flies a real vehicle
+  kHeldUp,      ///< this process did not run for a while
+  kStalled,     ///< one of its threads does not answer
+  kCamera,      ///< nobody has said yet what the camera is
+  kDepth,       ///< no depth image, or too old a one
+  kDepthStuck,  ///< depth images that show the same picture, while the vehicle moves
+  kPose,        ///< no pose, or too old a one
+  kClock,       ///< stamps ahead of our time: another clock
+  kPlan,        ///< no plan, or too old a one
+  kAutopilot,   ///< no autopilot is heard
+  kAlignment,   ///< T_NED_W is not known well enough
+  kLive,        ///< what we see is a recording, and the autopilot flies a real vehicle
 };
-inline constexpr std::size_t kFaultCount = 10;
+inline constexpr std::size_t kFaultCount = 11;
 
 /// In a pilot's words, as what is missing: "depth images".
 [[nodiscard]] std::string_view toString(Fault fault);

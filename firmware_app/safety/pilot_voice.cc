@@ -9,7 +9,8 @@ constexpr Duration kReminder = std::chrono::seconds(10);
 /// What is missing while waiting flickers as streams start.
 constexpr Duration kWaitingHurry = std::chrono::seconds(2);
 
-/// A reason to hover that goes within that time is no news.
+/// A reason to hover that goes within that time is no news; nor is its end, if it is back within that time: a vehicle
+/// that follows its goal as the estimate drifts does so by small hops.
 constexpr Duration kReasonLasts = std::chrono::seconds(1);
 
 bool isNews(Reason reason) { return reason != Reason::kFlying && reason != Reason::kSlowing; }
@@ -56,7 +57,10 @@ std::optional<PilotText> PilotVoice::ofState(Time now, const SafetyVerdict& verd
 }
 
 std::optional<PilotText> PilotVoice::ofReason(Time now, const SafetyVerdict& verdict, Reason reason) {
-  if (reason != reason_) {
+  const bool other = reason != reason_;
+  if (other && !isNews(reason) && now - reason_seen_ < kReasonLasts) return std::nullopt;
+  reason_seen_ = now;
+  if (other) {
     reason_ = reason;
     reason_since_ = now;
     reason_told_ = false;

@@ -33,6 +33,7 @@ class PilotVoice {
   Time told_at_{};
   Reason reason_ = Reason::kFlying;
   Time reason_since_{};
+  Time reason_seen_{};
   bool reason_told_ = true;
 };
 

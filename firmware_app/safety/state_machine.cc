@@ -54,6 +54,7 @@ FaultSet StateMachine::faultsOf(const Situation& situation) const {
   if (situation.stalled) faults.add(Fault::kStalled);
   if (!situation.camera) faults.add(Fault::kCamera);
   if (older(situation.depth, parameters_.max_depth_age, now)) faults.add(Fault::kDepth);
+  if (situation.depth_stuck) faults.add(Fault::kDepthStuck);
   if (older(situation.pose, parameters_.max_pose_age, now)) faults.add(Fault::kPose);
   const Time latest = now + parameters_.max_stamp_lead;
   if ((situation.depth && *situation.depth > latest) || (situation.pose && *situation.pose > latest)) {

@@ -53,6 +53,7 @@ struct Situation {
   Time now{};
   bool camera = false;
   std::optional<Time> depth;      ///< newest view of the chain
+  bool depth_stuck = false;       ///< frames come, and show the same picture while the vehicle moves
   std::optional<Time> pose;       ///< newest pose of the chain
   std::optional<Time> plan;       ///< what the last decision that may be flown, of the poses' world, was planned for
   std::optional<Time> brake_end;  ///< when the motion in force stands

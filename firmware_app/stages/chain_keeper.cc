@@ -5,15 +5,16 @@
 
 namespace nanomap {
 
-ChainKeeper::ChainKeeper(const ChainParameters& parameters, bool camera_known, const ChainPorts& ports)
-    : stage_(parameters), ports_(ports), camera_known_(camera_known) {}
+ChainKeeper::ChainKeeper(const ChainParameters& parameters, const StuckDepthParameters& stuck_depth, bool camera_known,
+                         const ChainPorts& ports)
+    : stage_(parameters, stuck_depth), ports_(ports), camera_known_(camera_known) {}
 
 std::size_t ChainKeeper::run(Time now) {
   std::size_t taken = 0;
   while (ports_.inputs.pop([&](const ArrivedInput& arrived) { take(arrived, now); })) ++taken;
   while (ports_.indexed.pop([&](IndexedFrame& arrived) { take(arrived, now); })) ++taken;
   if (views_entered_ > 0 && stage_.state()) askForAPlan();
-  if (taken > 0) ports_.counters.put([this](ChainCounters& slot) { slot = stage_.chain().counters(); });
+  if (taken > 0) ports_.counters.put([this](ChainStageCounters& slot) { slot = stage_.counters(); });
   return taken;
 }
 
@@ -33,6 +34,7 @@ void ChainKeeper::take(const ArrivedInput& arrived, Time now) {
 void ChainKeeper::take(IndexedFrame& arrived, Time now) {
   noteStep(arrived.kind, arrived.arrival, arrived.stamp_shift, now);
   camera_known_ = arrived.camera_known;
+  if (arrived.kind == InputKind::kDepth) newest_frame_ = arrived.arrival;
   if (arrived.view) views_entered_ += stage_.take(std::exchange(arrived.view, nullptr));
 }
 
@@ -44,6 +46,7 @@ void ChainKeeper::noteStep(InputKind kind, Time arrival, Duration stamp_shift, T
 void ChainKeeper::report() {
   ports_.vehicle.push([this](VehicleReport& slot) {
     slot.camera = camera_known_;
+    slot.camera_stuck = stage_.isCameraStuck();
     slot.state = stage_.state();
     slot.newest_view = stage_.newestView();
   });
@@ -56,6 +59,7 @@ void ChainKeeper::askForAPlan() {
     moment.state = *stage_.state();
     moment.goal = stage_.goal();
     moment.step = steps_;
+    moment.newest_frame = newest_frame_.value_or(Time{});
     moment.newest_view = stage_.newestView().value_or(moment.snapshot.stamp);
     ports_.newest.put([&](ChainSnapshot& newest) {
       newest.stamp = moment.snapshot.stamp;

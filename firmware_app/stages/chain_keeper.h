@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "firmware_app/handover/doorbell.h"
 #include "firmware_app/handover/mailbox.h"
@@ -22,7 +23,7 @@ struct ChainPorts {
   Mailbox<PlanningMoment>& moments;   ///< for the planner,
   Doorbell& planner_bell;             ///< which is rung
   SlotQueue<Step>& steps;             ///< for the recorder
-  Mailbox<ChainCounters>& counters;
+  Mailbox<ChainStageCounters>& counters;
 };
 
 /// Stage T3 as it runs: the one place where everything is consumed, in an order that is told step by step. A plan is
@@ -31,11 +32,15 @@ struct ChainPorts {
 class ChainKeeper {
  public:
   /// @throws std::invalid_argument naming the parameter that is wrong
-  ChainKeeper(const ChainParameters& parameters, bool camera_known, const ChainPorts& ports);
+  ChainKeeper(const ChainParameters& parameters, const StuckDepthParameters& stuck_depth, bool camera_known,
+              const ChainPorts& ports);
 
   /// Takes all that waits; how many things there were.
   /// @param now  that the steps are stamped with
   std::size_t run(Time now);
+
+  /// Arrival of the newest depth frame taken; empty before the first.
+  [[nodiscard]] std::optional<Time> newestFrame() const { return newest_frame_; }
 
  private:
   void take(const ArrivedInput& arrived, Time now);
@@ -47,6 +52,7 @@ class ChainKeeper {
   ChainStage stage_;
   ChainPorts ports_;
   std::uint64_t steps_ = 0;
+  std::optional<Time> newest_frame_;
   std::size_t views_entered_ = 0;  ///< since a plan was asked for
   bool camera_known_;
 };

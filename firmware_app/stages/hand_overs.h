@@ -6,6 +6,7 @@
 #include "firmware_app/handover/doorbell.h"
 #include "firmware_app/handover/mailbox.h"
 #include "firmware_app/handover/slot_queue.h"
+#include "firmware_app/pipeline/chain_stage.h"
 #include "firmware_app/pipeline/step.h"
 #include "firmware_app/stages/handed_over.h"
 #include "firmware_app/stages/index_stage.h"
@@ -46,7 +47,7 @@ struct HandOvers {
   Mailbox<ChainSnapshot> newest;          ///< sink
   Mailbox<PlanningMoment> moments;        ///< planner
   SlotQueue<Step> steps{2048};            ///< recorder
-  Mailbox<ChainCounters> chain_counters;
+  Mailbox<ChainStageCounters> chain_counters;
   SlotQueue<Duration> chain_times{1024};
 
   // planner ->

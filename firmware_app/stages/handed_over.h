@@ -51,6 +51,7 @@ struct PlanningMoment {
   std::optional<Goal> goal;
   std::uint64_t step = 0;  ///< the last one that the snapshot knows of
   Time newest_view{};      ///< exposure, for latencies
+  Time newest_frame{};     ///< arrival, for the deadline
 };
 
 /// A decision as it was made.

@@ -9,7 +9,8 @@ IndexStage::IndexStage(ViewBuilder builder, const IndexPorts& ports) : builder_(
 
 std::size_t IndexStage::run() {
   std::size_t taken = 0;
-  while (ports_.cameras.pop([this](const ArrivedCamera& arrived) { take(arrived); })) ++taken;
+  while (ports_.indexed.hasRoom() && ports_.cameras.pop([this](const ArrivedCamera& arrived) { take(arrived); }))
+    ++taken;
   while (ports_.frames.pop([this](const ArrivedFrame& arrived) { take(arrived); })) ++taken;
   if (taken > 0) {
     ports_.counters.put([this](IndexCounters& slot) { slot = counters_; });
@@ -24,6 +25,7 @@ void IndexStage::take(const ArrivedCamera& arrived) {
 }
 
 void IndexStage::take(const ArrivedFrame& arrived) {
+  newest_frame_ = arrived.arrival;
   IndexedFrame indexed{arrived.arrival, arrived.stamp_shift, InputKind::kDepth, nullptr, builder_.camera() != nullptr};
   auto built = builder_.build(arrived.depth);
   if (const auto* fault = std::get_if<CameraFault>(&built)) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "firmware_app/handover/doorbell.h"
 #include "firmware_app/handover/mailbox.h"
@@ -27,14 +28,19 @@ struct IndexPorts {
   Mailbox<IndexCounters>& counters;
 };
 
-/// Stage T2 as it runs: camera models first, then frames to views, in the order of their arrival.
-/// Allocates: for a new camera model, and as ViewPool does. Threads: one.
+/// Stage T2 as it runs: camera models first, then frames to views, in the order of their arrival. A frame that the
+/// chain has no room for is lost, which is counted; a camera model waits until there is room, since a replay that lacks
+/// its step would see all that follows through another camera. Allocates: for a new camera model, and as ViewPool does.
+/// Threads: one.
 class IndexStage {
  public:
   IndexStage(ViewBuilder builder, const IndexPorts& ports);
 
   /// Takes all that waits; how many things there were.
   std::size_t run();
+
+  /// Arrival of the newest depth frame taken; empty before the first.
+  [[nodiscard]] std::optional<Time> newestFrame() const { return newest_frame_; }
 
  private:
   void take(const ArrivedCamera& arrived);
@@ -44,6 +50,7 @@ class IndexStage {
   ViewBuilder builder_;
   IndexPorts ports_;
   IndexCounters counters_;
+  std::optional<Time> newest_frame_;
 };
 
 }  // namespace nanomap

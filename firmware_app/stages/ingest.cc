@@ -25,6 +25,7 @@ void Ingest::take(InputKind kind, Bytes message, Time arrival) {
     ++counters_.convert_faults[index][static_cast<std::size_t>(*convert_fault)];
   } else {
     Input& input = std::get<Input>(outcome);
+    noteLoss(kind, input);
     const auto stamp = stampOf(input);
     const auto shift = stamp ? clock_.shift(kind, *stamp, arrival) : Duration::zero();
     if (!shift) {
@@ -34,6 +35,35 @@ void Ingest::take(InputKind kind, Bytes message, Time arrival) {
     }
   }
   outputs_.counters.put([this](IngestCounters& slot) { slot = counters_; });
+}
+
+void Ingest::noteRealtime(Duration realtime_ahead, Time now) {
+  const auto step = clock_.noteRealtime(realtime_ahead, now);
+  if (!step) return;
+  ++counters_.clock_steps;
+  counters_.last_clock_step = *step;
+}
+
+/// Goals and camera models are told again and again, and lose nothing by a gap.
+void Ingest::noteLoss(InputKind kind, const Input& input) {
+  const auto index = static_cast<std::size_t>(kind);
+  const auto note = [&](bool numbered, std::uint64_t sequence, Time stamp) {
+    if (numbered) {
+      numbered_[index].arrived(sequence, stamp);
+      counters_.loss[index] = numbered_[index].loss();
+    } else {
+      unnumbered_[index].arrived(stamp);
+      counters_.loss[index] = unnumbered_[index].loss();
+    }
+  };
+  if (const auto* pose = std::get_if<PoseInput>(&input)) note(pose->numbered, pose->pose.sequence, pose->pose.stamp);
+  if (const auto* depth = std::get_if<DepthInput>(&input)) {
+    note(depth->numbered, depth->image.sequence, depth->image.stamp);
+  }
+  const auto* correction = std::get_if<Correction>(&input);
+  if (correction != nullptr && !correction->poses.empty()) {
+    note(true, correction->sequence, correction->poses.back().stamp);
+  }
 }
 
 void Ingest::takeIn(Input&& input, Time arrival, Duration stamp_shift) {

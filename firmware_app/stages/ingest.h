@@ -9,6 +9,7 @@
 #include "firmware_app/handover/slot_queue.h"
 #include "firmware_app/pipeline/message_intake.h"
 #include "firmware_app/pipeline/stamp_clock.h"
+#include "firmware_app/pipeline/stream_loss.h"
 #include "firmware_app/stages/handed_over.h"
 
 namespace nanomap {
@@ -23,6 +24,9 @@ struct IngestCounters {
   std::array<std::array<std::uint64_t, kConvertFaultCount>, kInputKindCount> convert_faults{};
   std::array<std::uint64_t, kInputKindCount> from_future{};
   std::array<std::uint64_t, kInputKindCount> before_clock{};  ///< of a log, before its clock was known
+  std::array<StreamLoss, kInputKindCount> loss{};             ///< of depth, poses and corrections
+  std::uint64_t clock_steps = 0;                              ///< times that the host's time of day was set
+  Duration last_clock_step{};                                 ///< forward, if positive
 };
 
 /// Where the ingest puts what it has read. Borrowed.
@@ -46,6 +50,9 @@ class Ingest {
   /// The arrival that a message taken in at `now` is told by: a whole microsecond, later than any before.
   [[nodiscard]] Time arrivalAt(Time now);
 
+  /// How far the host's time of day is ahead of our clock now, as realtimeAhead() measures it; before each take().
+  void noteRealtime(Duration realtime_ahead, Time now);
+
   /// @param arrival  of arrivalAt()
   void take(InputKind kind, Bytes message, Time arrival);
 
@@ -54,6 +61,7 @@ class Ingest {
   [[nodiscard]] const IngestCounters& counters() const { return counters_; }
 
  private:
+  void noteLoss(InputKind kind, const Input& input);
   void takeIn(Input&& input, Time arrival, Duration stamp_shift);
   void hand(Input&& input, Time arrival, Duration stamp_shift);
 
@@ -61,6 +69,8 @@ class Ingest {
   StampClock clock_;
   IngestOutputs outputs_;
   IngestCounters counters_;
+  std::array<NumberedStream, kInputKindCount> numbered_;
+  std::array<StampedStream, kInputKindCount> unnumbered_;
   Time last_arrival_{};
 };
 

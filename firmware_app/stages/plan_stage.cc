@@ -23,6 +23,7 @@ bool PlanStage::run(Time now) {
         horizon_.step(moment.snapshot, moment.state, moment.goal, timeToPlanFor(moment.state, now, max_state_lead_));
     made_.step = moment.step;
     newest_view_ = moment.newest_view;
+    newest_frame_ = moment.newest_frame;
     made_.sequence = next_sequence_++;
   });
   if (!planned) return false;

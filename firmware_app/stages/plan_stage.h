@@ -33,6 +33,9 @@ class PlanStage {
   /// @param now  what is planned for, cut to whole microseconds; or the state's stamp, if that is a little later
   bool run(Time now);
 
+  /// Arrival of the newest depth frame that was planned with.
+  [[nodiscard]] Time newestFrame() const { return newest_frame_; }
+
  private:
   RecedingHorizon horizon_;
   Duration max_state_lead_;
@@ -41,6 +44,7 @@ class PlanStage {
   std::uint64_t next_sequence_ = 0;
   std::uint64_t in_force_sequence_ = 0;
   Time newest_view_{};
+  Time newest_frame_{};
 };
 
 }  // namespace nanomap

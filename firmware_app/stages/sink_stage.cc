@@ -97,7 +97,11 @@ void SinkStage::sendOdometry(const VehicleState& state) {
   odometry.stamp = state.stamp;
   odometry.epoch = state.epoch;
   odometry.T_W_B = state.T_W_B;
-  if (state.velocity_W_m_s.allFinite()) odometry.velocity_W_m_s = state.velocity_W_m_s;
+  odometry.pose_covariance_W = poseCovariance(parameters_.odometry);
+  if (state.velocity_W_m_s.allFinite()) {
+    odometry.velocity_W_m_s = state.velocity_W_m_s;
+    odometry.velocity_covariance_B = velocityCovariance(parameters_.odometry);
+  }
   (void)link_.send(toFrd(odometry));  // the link counts what it refuses
 }
 

@@ -6,6 +6,7 @@
 
 #include "drivers/mavlink/alignment_estimator.h"
 #include "drivers/mavlink/autopilot_link.h"
+#include "drivers/mavlink/odometry.h"
 #include "firmware_app/handover/mailbox.h"
 #include "firmware_app/handover/slot_queue.h"
 #include "firmware_app/safety/commander.h"
@@ -23,6 +24,7 @@ struct SinkParameters {
   QueryOptions query{};        ///< by which obstacles are judged
   bool recording = false;      ///< what we see is one: a live autopilot is told nothing
   bool send_odometry = false;  ///< ODOMETRY, at every pose up to 50 Hz: the autopilot flies by our estimator
+  OdometrySpread odometry{};
 };
 
 /// What was sent to the autopilot at one moment, and why.

@@ -18,6 +18,7 @@ SinkParameters sinkParameters(const Configuration& configuration) {
   sink.query = configuration.planner.risk.query;
   sink.recording = configuration.lcm.clock == ClockDomain::kLog;
   sink.send_odometry = configuration.mavlink.send_odometry;
+  sink.odometry = configuration.mavlink.odometry;
   return sink;
 }
 
@@ -36,7 +37,7 @@ Stages::Stages(const Configuration& configuration, Duration realtime_ahead, Auto
               hand_overs.index_bell, hand_overs.ingest_counters}),
       index(viewBuilder(configuration), {hand_overs.cameras, hand_overs.captured, hand_overs.indexed,
                                          hand_overs.chain_bell, hand_overs.index_counters}),
-      chain(configuration.chain, configuration.camera.has_value(),
+      chain(configuration.chain, configuration.safety.stuck_depth, configuration.camera.has_value(),
             {hand_overs.inputs, hand_overs.indexed, hand_overs.vehicle, hand_overs.newest, hand_overs.moments,
              hand_overs.planner_bell, hand_overs.steps, hand_overs.chain_counters}),
       plan(configuration.planner, configuration.safety.max_stamp_lead,

@@ -79,7 +79,7 @@ inline void expectEveryFrameCounted(const ReplayReport& report) {
   EXPECT_EQ(report.pipeline.messages[depth],
             sumOf(report.pipeline.decode_faults[depth]) + sumOf(report.pipeline.convert_faults[depth]) +
                 sumOf(report.pipeline.camera_faults) + sumOf(report.pipeline.image_faults) +
-                report.chain.viewsDropped() + report.chain.views_inserted + report.views_waiting);
+                report.chain.viewsDropped() + report.stuck_views + report.chain.views_inserted + report.views_waiting);
 }
 
 }  // namespace nanomap::test

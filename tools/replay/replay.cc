@@ -123,6 +123,7 @@ ReplayReport replay(LogReader& log, const Configuration& configuration, const Re
   report.steps = playback->stepReport();
   report.pipeline = pipeline.counters();
   report.chain = pipeline.chain().counters();
+  report.stuck_views = pipeline.stuckViews();
   report.views_waiting = pipeline.chain().waitingCount();
   report.last_camera_fault = pipeline.viewBuilder().lastCameraFault();
   report.has_camera = pipeline.viewBuilder().camera() != nullptr;

@@ -45,6 +45,7 @@ struct ReplayReport {
   std::optional<StepReport> steps;  ///< if the log is a recorded flight
   PipelineCounters pipeline;
   ChainCounters chain;
+  std::uint64_t stuck_views = 0;      ///< left out: the camera showed one picture while the vehicle moved
   std::size_t views_waiting = 0;      ///< still without a pose at the end
   std::uint64_t answered_frames = 0;  ///< messages of answers
   QueryStatistics fan;

@@ -64,6 +64,7 @@ void writeInputs(Text& text, const ReplayReport& report) {
   text.reasons<CameraFault>(report.pipeline.camera_faults);
   text.reasons<ImageFault>(report.pipeline.image_faults);
   text.reasons<ViewDrop>(report.chain.views_dropped);
+  if (report.stuck_views > 0) text.line("    {:>8}  of a camera that is stuck", report.stuck_views);
 
   text.line("camera models: {} in", messages(report, InputKind::kCamera));
   writeFaults(text, report, InputKind::kCamera);

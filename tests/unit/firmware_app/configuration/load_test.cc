@@ -141,6 +141,13 @@ TEST(Load, RecordingsNeedRoomForTwoFiles) {
   EXPECT_EQ(parseConfiguration("[recorder]\nsegment_mb = 100\ntotal_mb = 200\n", "x").recorder.total_mb, 200U);
 }
 
+TEST(Load, OdometryHasNoHalfOfACovariance) {
+  EXPECT_THAT(refusal("[mavlink]\nodometry_position_sd_m = 0.1\n"), HasSubstr("odometry_attitude_sd_rad"));
+  EXPECT_THAT(refusal("[mavlink]\nodometry_attitude_sd_rad = 0.1\n"), HasSubstr("odometry_position_sd_m"));
+  const std::string both = "[mavlink]\nodometry_position_sd_m = 0.1\nodometry_attitude_sd_rad = 0.02\n";
+  EXPECT_EQ(parseConfiguration(both, "x").mavlink.odometry.attitude_sd_rad, 0.02);
+}
+
 TEST(Load, UnknownKeySuggestsTheOneMeant) {
   EXPECT_EQ(refusal("[history]\n\nveiws = 3\n"),
             "drone.toml:3: unknown key 'history.veiws': did you mean 'history.views'?");

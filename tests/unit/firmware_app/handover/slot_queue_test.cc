@@ -36,6 +36,15 @@ TEST(SlotQueue, GivesWhatWasPushedInThatOrder) {
   EXPECT_THAT(drained(queue), ElementsAre(1, 2, 3));
 }
 
+TEST(SlotQueue, HasRoomUntilItIsFullAndAgainOnceASlotIsBack) {
+  SlotQueue<int> queue(1);
+  EXPECT_TRUE(queue.hasRoom());
+  pushValue(queue, 1);
+  EXPECT_FALSE(queue.hasRoom());
+  queue.pop([&](int) { EXPECT_FALSE(queue.hasRoom()) << "the slot is in use"; });
+  EXPECT_TRUE(queue.hasRoom());
+}
+
 TEST(SlotQueue, FullOneDropsTheNewAndCounts) {
   SlotQueue<int> queue(2);
   for (int value : {1, 2}) EXPECT_TRUE(pushValue(queue, value));

@@ -87,6 +87,34 @@ TEST_F(HealthMonitorTest, DropsAreInTheStatusLine) {
   EXPECT_THAT(statusLine(monitor_.report(Time(2s), {})), HasSubstr("dropped 1"));
 }
 
+TEST_F(HealthMonitorTest, WhatWasLostOnTheWayHereIsToldByStreamAndInTheStatusLine) {
+  EXPECT_THAT(statusLine(monitor_.report(Time(1s), {})), Not(HasSubstr("lost")));
+  hand_overs_.ingest_counters.put([](IngestCounters& counters) {
+    counters.loss[static_cast<std::size_t>(InputKind::kDepth)].missing = 10;
+    counters.loss[static_cast<std::size_t>(InputKind::kPose)].suspected = 2;
+  });
+  const health_t health = monitor_.report(Time(2s), {{std::string(kLostDatagrams), 33}});
+  EXPECT_EQ(counter(health, "depth frames: missing"), 10);
+  EXPECT_EQ(counter(health, "poses: suspected missing"), 2);
+  EXPECT_THAT(statusLine(health), HasSubstr("lost: depth frames 10, poses 2, datagrams 33"));
+}
+
+TEST_F(HealthMonitorTest, LateFramesAStuckCameraAndASetClockAreTold) {
+  hand_overs_.chain_counters.put([](ChainStageCounters& counters) { counters.stuck_views = 5; });
+  hand_overs_.ingest_counters.put([](IngestCounters& counters) { counters.clock_steps = 1; });
+  const health_t health = monitor_.report(Time(1s), {{std::string(kLateFrames), 4}});
+  EXPECT_EQ(counter(health, "views: of a camera that is stuck"), 5);
+  EXPECT_THAT(statusLine(health), HasSubstr("late frames 4 | time of day set 1"));
+}
+
+TEST_F(HealthMonitorTest, AllThatWasCountedFitsALine) {
+  setSink(State::kFlying, Reason::kFlying);
+  const std::string line = countersLine(monitor_.report(Time(1s), {{"late setpoints", 7}, {"others", 0}}));
+  EXPECT_THAT(line, HasSubstr("setpoints 42, "));
+  EXPECT_THAT(line, HasSubstr("late setpoints 7"));
+  EXPECT_THAT(line, Not(HasSubstr("others")));
+}
+
 TEST_F(HealthMonitorTest, OthersAreShownAsTheyAre) {
   EXPECT_EQ(counter(monitor_.report(Time(1s), {{"late setpoints", 7}}), "late setpoints"), 7);
 }

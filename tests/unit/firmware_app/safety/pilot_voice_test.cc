@@ -71,6 +71,26 @@ TEST(PilotVoice, WhyItHoversIsSaidOnceItHasLasted) {
   EXPECT_FALSE(voice.step(atMs(3000), verdict(State::kFlying), Reason::kBlocked));
 }
 
+TEST(PilotVoice, SmallHopsAtTheGoalAreNoEndOfIt) {
+  PilotVoice voice;
+  EXPECT_TRUE(voice.step(atMs(0), verdict(State::kFlying), Reason::kFlying));
+  int said = 0;
+  for (int ms = 2000; ms < 12'000; ms += 20) {
+    const Reason reason = ms % 1000 < 600 ? Reason::kFlying : Reason::kAtGoal;
+    said += voice.step(atMs(ms), verdict(State::kFlying), reason).has_value();
+  }
+  EXPECT_EQ(said, 1);
+}
+
+TEST(PilotVoice, ReasonThatComesForMomentsNowAndThenIsNoNews) {
+  PilotVoice voice;
+  EXPECT_TRUE(voice.step(atMs(0), verdict(State::kFlying), Reason::kFlying));
+  for (int ms = 2000; ms < 12'000; ms += 20) {
+    const Reason reason = ms % 2000 < 1200 ? Reason::kFlying : Reason::kBlocked;
+    EXPECT_FALSE(voice.step(atMs(ms), verdict(State::kFlying), reason)) << ms;
+  }
+}
+
 TEST(PilotVoice, ReasonOnTheGroundIsNoNews) {
   PilotVoice voice;
   EXPECT_TRUE(voice.step(atMs(0), verdict(State::kReady), Reason::kNoGoal));

@@ -293,6 +293,7 @@ const FaultCase kFaultCases[] = {
     {"DepthLate", [](Situation& s, Time) { s.depth = s.now - kSecond; }, Fault::kDepth, kAtOnce, Stream::kMotion},
     {"DepthOfAnotherClock", [](Situation& s, Time) { s.depth = s.now + kSecond; }, Fault::kClock, kAtOnce,
      Stream::kMotion},
+    {"DepthStuck", [](Situation& s, Time) { s.depth_stuck = true; }, Fault::kDepthStuck, kAtOnce, Stream::kMotion},
     {"PoseOff", [](Situation& s, Time began) { s.pose = began; }, Fault::kPose, std::chrono::milliseconds(200),
      Stream::kVelocity},
     {"PoseLate", [](Situation& s, Time) { s.pose = s.now - kSecond; }, Fault::kPose, kAtOnce, Stream::kVelocity},

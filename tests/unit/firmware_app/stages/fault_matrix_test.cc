@@ -26,7 +26,7 @@ struct Case {
 
 std::string nameOf(const Case& one) {
   constexpr std::array<const char*, 7> kWhat = {"Depth", "Pose", "Correction", "Mavlink", "Planner", "Sink", "Clock"};
-  constexpr std::array<const char*, 6> kHow = {"Off", "Stuck", "Late", "Garbage", "Jumping", "Intermittent"};
+  constexpr std::array<const char*, 7> kHow = {"Off", "Stuck", "Late", "Garbage", "Jumping", "Intermittent", "Frozen"};
   return std::string(kWhat[static_cast<std::size_t>(one.what)]) + kHow[static_cast<std::size_t>(one.how)];
 }
 
@@ -91,6 +91,7 @@ TEST_P(FaultMatrix, IsAnsweredAsTheTableSays) {
 const Case kCases[] = {
     {Broken::kDepth, How::kOff, 240ms, State::kLost},
     {Broken::kDepth, How::kStuck, 240ms, State::kLost},
+    {Broken::kDepth, How::kFrozen, 240ms, State::kLost},
     {Broken::kDepth, How::kLate, 240ms, State::kLost},
     {Broken::kDepth, How::kGarbage, 240ms, State::kLost},
     {Broken::kDepth, How::kJumping, 240ms, State::kLost},
@@ -138,6 +139,26 @@ TEST_F(FlightFaults, CameraThatIsAwayForASecondIsFlownOutOf) {
   EXPECT_GT(flight_.speed_m_s(), 1.0);
   EXPECT_FALSE(flight_.wasIn(State::kLost));
   expectEverySetpointInOrder();
+}
+
+TEST_F(FlightFaults, FrozenPictureIsNamedAndFlownOutOfWhenItMovesAgain) {
+  flight_.breakIt(Broken::kDepth, How::kFrozen);
+  flight_.run(1s);
+  ASSERT_EQ(flight_.state(), State::kBraking);
+  EXPECT_TRUE(flight_.setpoints().back().verdict.faults.has(Fault::kDepthStuck));
+  EXPECT_GT(flight_.stuckViews(), 10U);
+  flight_.mend();
+  flight_.run(3s);
+  EXPECT_EQ(flight_.state(), State::kFlying);
+  expectEverySetpointInOrder();
+}
+
+TEST_F(FlightFaults, FrozenPictureOfAStandingVehicleIsNone) {
+  flight_.autopilot.state.external_control = false;
+  flight_.run(2s);
+  flight_.breakIt(Broken::kDepth, How::kFrozen);
+  flight_.run(3s);
+  EXPECT_EQ(flight_.state(), State::kReady);
 }
 
 TEST_F(FlightFaults, SinkThatIsOffSendsNothing) {

@@ -20,7 +20,7 @@ namespace nanomap::test {
 
 /// What can break between the flight's parts, and how.
 enum class Broken { kDepth, kPose, kCorrection, kMavlink, kPlanner, kSink, kClock };
-enum class How { kOff, kStuck, kLate, kGarbage, kJumping, kIntermittent };
+enum class How { kOff, kStuck, kLate, kGarbage, kJumping, kIntermittent, kFrozen };
 
 /// An autopilot in the same process: a vehicle that does at once what it is told, and stands when it is told nothing.
 class ObedientAutopilot : public AutopilotLink {
@@ -140,6 +140,11 @@ class FlightOnAFakeClock {
   [[nodiscard]] bool wasIn(State state) const { return first_in_.contains(state); }
   [[nodiscard]] Duration until(State state, Time from) const { return first_in_.at(state) - from; }
   void forgetStates() { first_in_.clear(); }
+  [[nodiscard]] std::uint64_t stuckViews() {
+    std::uint64_t views = 0;
+    stages_.hand_overs.chain_counters.take([&](const ChainStageCounters& counters) { views = counters.stuck_views; });
+    return views;
+  }
   [[nodiscard]] const std::vector<SentSetpoint>& setpoints() const { return setpoints_; }
   [[nodiscard]] const MadeDecision* decision(std::uint64_t sequence) const {
     const auto found = decisions_.find(sequence);
@@ -237,6 +242,7 @@ class FlightOnAFakeClock {
   void sendDepth() {
     DepthImage image = flatImage(camera_, 9000, stampNow() - std::chrono::milliseconds(30));
     image.sequence = static_cast<std::uint64_t>(ticks_);
+    if (!is(Broken::kDepth, How::kFrozen)) ++image.pixels[static_cast<std::size_t>(ticks_) % image.pixels.size()];
     if (is(Broken::kDepth, How::kJumping))
       image.stamp += std::chrono::seconds(everyOther(std::chrono::milliseconds(100)) ? 2 : -2);
     send(InputKind::kDepth, toMessage(image, "front", DepthCompression::kRaw), Broken::kDepth);

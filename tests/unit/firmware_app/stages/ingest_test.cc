@@ -106,6 +106,60 @@ TEST_F(IngestTest, FrameThatNobodyTookIsReplacedByTheNext) {
   EXPECT_EQ(hand_overs_.frames.replaced(), 1U);
 }
 
+TEST_F(IngestTest, LossIsCountedByStream) {
+  Ingest ingest = ingestOf(ClockDomain::kMonotonic);
+  const auto loss = [&](InputKind kind) { return ingest.counters().loss[static_cast<std::size_t>(kind)]; };
+  BodyPose pose;
+  for (const std::uint64_t sequence : {4U, 5U, 8U}) {
+    pose.sequence = sequence;
+    pose.stamp = kNow + std::chrono::milliseconds(sequence);
+    ingest.take(InputKind::kPose, bytesOf(toMessage(pose, std::nullopt)), pose.stamp);
+  }
+  DepthImage image = test::flatImage(CameraModel(test::smallCamera()), 3000, kNow);
+  for (const std::uint64_t sequence : {0U, 7U}) {
+    image.sequence = sequence;
+    image.stamp = kNow + std::chrono::milliseconds(sequence);
+    ingest.take(InputKind::kDepth, bytesOf(toMessage(image, "front", DepthCompression::kRaw)), image.stamp);
+  }
+  Correction correction;
+  for (const std::uint64_t sequence : {1U, 3U}) {
+    correction.sequence = sequence;
+    correction.poses = {{kNow + std::chrono::milliseconds(sequence), {}}};
+    ingest.take(InputKind::kCorrection, bytesOf(toMessage(correction, kNow)), kNow);
+  }
+  EXPECT_EQ(loss(InputKind::kPose).missing, 2U);
+  EXPECT_EQ(loss(InputKind::kDepth).missing, 6U);
+  EXPECT_EQ(loss(InputKind::kCorrection).missing, 1U);
+  EXPECT_EQ(loss(InputKind::kGoal).missing, 0U);
+}
+
+TEST_F(IngestTest, LossOfMessagesWithoutANumberIsSuspectedByTheirStamps) {
+  Ingest ingest = ingestOf(ClockDomain::kMonotonic);
+  BodyPose pose;
+  for (int i = 0; i < 50; ++i) {
+    if (i == 40 || i == 41) continue;
+    pose.stamp = kNow + i * 10ms;
+    ingest.take(InputKind::kPose, bytesOf(toPoseMessage(pose, BodyConvention::kFlu)), pose.stamp);
+  }
+  const StreamLoss& loss = ingest.counters().loss[static_cast<std::size_t>(InputKind::kPose)];
+  EXPECT_EQ(loss.missing, 0U);
+  EXPECT_EQ(loss.suspected, 2U);
+}
+
+TEST_F(IngestTest, StepOfTheTimeOfDayIsCountedAndDoesNotAge) {
+  Ingest ingest = ingestOf(ClockDomain::kRealtime, 1000s);
+  ingest.noteRealtime(1000s, kNow);
+  ingest.take(InputKind::kPose, poseAt(kNow + 1000s - 5ms), kNow);
+  ingest.noteRealtime(400s, kNow + 10ms);
+  ingest.take(InputKind::kPose, poseAt(kNow + 10ms + 400s - 5ms), kNow + 10ms);
+  ASSERT_TRUE(takenInput());
+  const auto input = takenInput();
+  ASSERT_TRUE(input);
+  EXPECT_EQ(std::get<PoseInput>(input->input).pose.stamp, kNow + 5ms);
+  EXPECT_EQ(ingest.counters().clock_steps, 1U);
+  EXPECT_EQ(ingest.counters().last_clock_step, -600s);
+}
+
 TEST_F(IngestTest, FullQueueDropsAndCounts) {
   Ingest ingest = ingestOf(ClockDomain::kMonotonic);
   const std::size_t capacity = hand_overs_.inputs.capacity();
