@@ -83,6 +83,11 @@ class Child:
     def last_words(self) -> str:
         return self._lines[-1] if self._lines else "it said nothing"
 
+    def kill(self) -> None:
+        """As a crash would."""
+        self._process.kill()
+        self._process.wait()
+
     def end(self) -> int:
         """Asks it to end, and waits until it has. The exit code."""
         if self._process.poll() is None:

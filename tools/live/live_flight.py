@@ -67,9 +67,18 @@ class LiveFlight:
             options.folder / "sim.txt", lambda line: options.tell(f"nanomap-sim: {line}"),
             realtime=True))
         self.sim.until(lambda: any(PLACED in line for line in self.sim.lines()), SIM_START_S, "the scene")
-        self.flight = stack.enter_context(Child(
-            [options.programs / "nanomap-flight", "--allow-no-realtime", "--set", lcm, "--set",
-             f'mavlink.url="{own.url}"', "--record", options.recordings, *options.flight_arguments], options.folder / "flight.txt"))
+        self._stack = stack
+        self._flight_command = [
+            options.programs / "nanomap-flight", "--allow-no-realtime", "--set", lcm, "--set",
+            f'mavlink.url="{own.url}"', "--record", options.recordings, *options.flight_arguments]
+        self.flight = self._started("flight.txt")
+
+    def start_again(self) -> None:
+        """The flight process, which has ended."""
+        self.flight = self._started("flight_again.txt")
+
+    def _started(self, lines_file: str) -> Child:
+        return self._stack.enter_context(Child(self._flight_command, self.options.folder / lines_file))
 
     def hand_over(self) -> None:
         """As the pilot of tools/autopilot: lets the flight process fly."""

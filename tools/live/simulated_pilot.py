@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import math
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -42,14 +43,37 @@ class SimulatedPilot:
         self.until(checked(lambda: any(text.startswith(READY) for text in self.texts())), READY_S, f"'{READY}'")
         heard = len(self.messages(SETPOINT))
         self.until(checked(lambda: len(self.messages(SETPOINT)) >= heard + STREAM_MESSAGES), READY_S, "setpoints")
-        self._child.order("mode OFFBOARD")
-        self.until(lambda: "OFFBOARD" in self.modes(), START_S, "OFFBOARD")
+        switches = len(self.modes())
+        self.order("mode OFFBOARD")
+        self.until(lambda: self.modes()[switches:] == ["OFFBOARD"], START_S, "OFFBOARD")
+
+    def order(self, line: str) -> None:
+        """As the vehicle's pilot, in the words of tools/autopilot."""
+        self._child.order(line)
+
+    def speed_m_s(self) -> float:
+        """Of the vehicle, in truth, now."""
+        def told() -> list[dict]:
+            return [event for event in list(self.events) if event["event"] == "state"]
+
+        before = len(told())
+        self.order("state")
+        self.until(lambda: len(told()) > before, START_S, "where the vehicle is")
+        return math.hypot(*told()[-1]["velocity"])
 
     def until(self, condition: Callable[[], bool], timeout_s: float, what: str) -> None:
         self._child.until(condition, timeout_s, what)
 
     def texts(self) -> list[str]:
-        return [message["fields"]["text"] for message in self.messages("STATUSTEXT")]
+        """Whole ones: a long text comes in chunks of one number."""
+        texts: list[str] = []
+        for message in self.messages("STATUSTEXT"):
+            fields = message["fields"]
+            if fields["id"] != 0 and fields["chunk_seq"] > 0 and texts:
+                texts[-1] += fields["text"]
+            else:
+                texts.append(fields["text"])
+        return texts
 
     def modes(self) -> list[str]:
         return [event["mode"] for event in list(self.events) if event["event"] == "mode"]

@@ -9,6 +9,7 @@ namespace {
 constexpr const char* kCameraOff = "--camera-off";
 constexpr const char* kVioOff = "--vio-off";
 constexpr const char* kVioJump = "--vio-jump";
+constexpr const char* kFault = "--fault";
 
 }  // namespace
 
@@ -46,6 +47,12 @@ void addOptions(CLI::App& app, Arguments& arguments) {
                  "Where the autopilot tells where its vehicle is, as MAVSDK takes it; nanomap-flight has another one")
       ->capture_default_str()
       ->needs(live);
+  app.add_option(kFault, arguments.message_faults,
+                 "What befalls messages from T s after the departure on, for D s: " + namesOfMessageFaults() +
+                     "; may be given again")
+      ->option_text("WHAT:T:D")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->needs(live);
   app.add_option("--heading", arguments.heading_deg,
                  "Of the way to the goal, clockwise from north [degrees]; default: the vehicle's own at first")
       ->needs(live);
@@ -68,6 +75,12 @@ SensorFaultPlanParameters faultsOf(const Arguments& arguments) {
   if (!arguments.camera_off.empty()) faults.camera = parseOutage(kCameraOff, arguments.camera_off);
   if (!arguments.vio_off.empty()) faults.estimator = parseOutage(kVioOff, arguments.vio_off);
   if (!arguments.vio_jump.empty()) faults.jump = parseJump(kVioJump, arguments.vio_jump);
+  return faults;
+}
+
+std::vector<PlannedMessageFault> messageFaultsOf(const Arguments& arguments) {
+  std::vector<PlannedMessageFault> faults;
+  for (const std::string& text : arguments.message_faults) faults.push_back(parseMessageFault(kFault, text));
   return faults;
 }
 

@@ -24,6 +24,7 @@ struct Arguments {
   std::string camera_off;
   std::string vio_off;
   std::string vio_jump;
+  std::vector<std::string> message_faults;
 
   bool live = false;
   std::string autopilot_url = LiveFlightOptions().autopilot_url;
@@ -36,5 +37,8 @@ void addOptions(CLI::App& app, Arguments& arguments);
 
 /// @throws std::invalid_argument naming the option and what it was given
 [[nodiscard]] SensorFaultPlanParameters faultsOf(const Arguments& arguments);
+
+/// Likewise.
+[[nodiscard]] std::vector<PlannedMessageFault> messageFaultsOf(const Arguments& arguments);
 
 }  // namespace nanomap::sim

@@ -78,7 +78,7 @@ LiveFlight flyLive(const Configuration& configuration, const generate::SensedFli
   TrueMotion motion(placeScene(mission, vehicle, on_ground, heading_rad));
   motion.add(vehicle);
   LiveFlyer flyer(configuration, flight.scene(), options.vehicle_radius_m, fromSeconds(1.0 / flight.options().depth_hz),
-                  std::move(motion), options.faults, surroundings);
+                  std::move(motion), options.faults, options.message_faults, surroundings);
   LiveFlight result;
   result.start = std::chrono::ceil<std::chrono::microseconds>(clock.now());
   result.sensed = flight.fly(configuration.lcm, result.start, options.duration, flyer);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/time.h"
 #include "firmware_app/configuration/configuration.h"
@@ -19,6 +20,7 @@ struct LiveFlightOptions {
   double vehicle_radius_m = 0.0;      ///< of the sphere that holds the vehicle
   Duration duration{};                ///< to give up after
   SensorFaultPlanParameters faults;
+  std::vector<PlannedMessageFault> message_faults;
   std::optional<std::filesystem::path> log;
 };
 

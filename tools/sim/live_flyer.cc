@@ -18,20 +18,21 @@ constexpr double kTrackingAllowance_m = 0.3;
 
 /// A vehicle that stands at the goal is watched for this long: it has to stay clear of everything, and the flight
 /// process says that it has arrived only when that has been so for a second.
-constexpr Duration kStays = std::chrono::seconds(2);
+constexpr Duration kStays = std::chrono::seconds(3);
 
 }  // namespace
 
 LiveFlyer::LiveFlyer(const Configuration& configuration, const simulation::Scene& scene, double vehicle_radius_m,
                      Duration frame_period, TrueMotion motion, const SensorFaultPlanParameters& faults,
-                     LiveSurroundings surroundings)
+                     const std::vector<PlannedMessageFault>& message_faults, LiveSurroundings surroundings)
     : scene_(scene),
       arrival_tolerance_m_(configuration.planner.objective.goal_tolerance_m + kTrackingAllowance_m),
       frame_period_(frame_period),
       surroundings_(std::move(surroundings)),
       motion_(std::move(motion)),
       judge_(scene, vehicle_radius_m),
-      faults_(faults) {}
+      faults_(faults),
+      message_faults_(configuration.lcm, message_faults) {}
 
 simulation::VehicleState LiveFlyer::at(Time stamp) {
   waitUntil(stamp);
@@ -52,6 +53,13 @@ void LiveFlyer::onEstimate(const simulation::VioEstimate& estimate) {
 
 void LiveFlyer::onArrival(const std::string& channel, Time arrival, Bytes message) {
   waitUntil(arrival);
+  const std::optional<Time> departure = judge_.verdict().departure;
+  const auto since_departure = departure ? std::optional(arrival - *departure) : std::nullopt;
+  message_faults_.pass(channel, arrival, message, since_departure,
+                       [&](const std::string& on, Bytes sent) { publish(on, arrival, sent); });
+}
+
+void LiveFlyer::publish(const std::string& channel, Time arrival, Bytes message) {
   if (!surroundings_.publish(channel, message)) ++summary_.unpublished;
   if (surroundings_.log != nullptr) surroundings_.log->writeEncoded(channel, arrival, message);
 }

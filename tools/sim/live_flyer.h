@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/time.h"
 #include "drivers/lcm/message_source.h"
@@ -10,6 +11,7 @@
 #include "firmware_app/configuration/configuration.h"
 #include "tools/generate/sensed_flight.h"
 #include "tools/sim/flight_judge.h"
+#include "tools/sim/message_faults.h"
 #include "tools/sim/sensor_fault_plan.h"
 #include "tools/sim/true_motion.h"
 
@@ -40,7 +42,7 @@ class LiveFlyer : public generate::Flyer {
   /// @param motion  knows the scene's place, and where the vehicle was last
   LiveFlyer(const Configuration& configuration, const simulation::Scene& scene, double vehicle_radius_m,
             Duration frame_period, TrueMotion motion, const SensorFaultPlanParameters& faults,
-            LiveSurroundings surroundings);
+            const std::vector<PlannedMessageFault>& message_faults, LiveSurroundings surroundings);
 
   /// Waits for the moment. @throws std::runtime_error if the autopilot no longer tells where the vehicle is
   [[nodiscard]] simulation::VehicleState at(Time stamp) override;
@@ -52,6 +54,7 @@ class LiveFlyer : public generate::Flyer {
   [[nodiscard]] LiveFlightSummary summary() const;
 
  private:
+  void publish(const std::string& channel, Time arrival, Bytes message);
   void waitUntil(Time time);
   void takePoses();
 
@@ -62,6 +65,7 @@ class LiveFlyer : public generate::Flyer {
   TrueMotion motion_;
   FlightJudge judge_;
   SensorFaultPlan faults_;
+  MessageFaults message_faults_;
   Time next_sign_of_life_{};
   Time stamp_{};                    ///< of what was asked for last
   simulation::VehicleState truth_;  ///< then

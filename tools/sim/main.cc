@@ -77,6 +77,7 @@ bool runLive(const Arguments& arguments, const Configuration& configuration) {
   options.vehicle_radius_m = simulation::MulticopterParameters().radius_m;
   options.duration = fromSeconds(arguments.duration_s);
   options.faults = faultsOf(arguments);
+  options.message_faults = messageFaultsOf(arguments);
   options.log = arguments.log;
   const auto tell = [](const std::string& text) {
     fmt::print("{}\n", text);

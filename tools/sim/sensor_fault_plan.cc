@@ -24,10 +24,6 @@ std::pair<double, double> parsePair(std::string_view option, std::string_view te
   return {first, second};
 }
 
-bool holds(const std::optional<Outage>& outage, Duration since_departure) {
-  return outage && since_departure >= outage->after && since_departure < outage->after + outage->lasts;
-}
-
 }  // namespace
 
 Outage parseOutage(std::string_view option, std::string_view text) {
@@ -44,8 +40,8 @@ generate::SensorFaults SensorFaultPlan::at(Time stamp, std::optional<Time> depar
   if (!departure) return {};
   const Duration since_departure = stamp - *departure;
   generate::SensorFaults faults;
-  faults.camera_off = holds(parameters_.camera, since_departure);
-  faults.estimator_off = holds(parameters_.estimator, since_departure);
+  faults.camera_off = parameters_.camera && parameters_.camera->holds(since_departure);
+  faults.estimator_off = parameters_.estimator && parameters_.estimator->holds(since_departure);
   if (parameters_.jump && !jumped_ && since_departure >= parameters_.jump->after) {
     jumped_ = true;
     faults.jump_m = parameters_.jump->distance_m;

@@ -10,6 +10,10 @@ namespace nanomap::sim {
 
 /// What a sensor does not do for a while.
 struct Outage {
+  [[nodiscard]] bool holds(Duration since_departure) const {
+    return since_departure >= after && since_departure < after + lasts;
+  }
+
   Duration after{};  ///< since the vehicle left its start
   Duration lasts{};
 };

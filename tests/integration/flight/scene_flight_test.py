@@ -9,7 +9,7 @@ from live_flight import live_flight
 
 class SceneFlight(FlightTest):
     def assert_arrives(self, scene: str, top_speed_m_s: float) -> None:
-        with live_flight(self.options(scene=scene, duration_s=45.0)) as flight:
+        with live_flight(self.options(scene=scene, duration_s=60.0)) as flight:
             flight.hand_over()
             code = flight.wait()
             what_happened = self.what_happened(flight)

@@ -88,7 +88,7 @@ class LiveFlyerTest : public testing::Test {
                                   .stopped = [&] { return now_ >= stop_; }};
     TrueMotion motion{NedFromWorld(0.0, Vec3(3.0, 0.0, 0.0))};
     motion.add(*autopilot.takePose());
-    LiveFlyer flyer(Configuration(), flight.scene(), kRadius_m, 33ms, std::move(motion), faults, surroundings);
+    LiveFlyer flyer(Configuration(), flight.scene(), kRadius_m, 33ms, std::move(motion), faults, {}, surroundings);
     (void)flight.fly(LcmParameters(), kStart, duration, flyer);
     signs_of_life_ = autopilot.signs_of_life;
     return flyer.summary();
