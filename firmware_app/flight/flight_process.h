@@ -29,11 +29,11 @@ struct FlightOptions {
   std::function<void(const ReceivedMessage&, Time arrival)> on_message = [](const ReceivedMessage&, Time) {};
 };
 
-/// Depth frames that had not left a stage by their deadline.
+/// Depth frames that had not left a stage by their deadline; one that is late from an early stage is in the later ones.
 struct LateFrames {
   std::uint64_t index = 0;
-  std::uint64_t chain = 0;    ///< those of the index stage among them
-  std::uint64_t planner = 0;  ///< those of the chain among them, unless they were never planned with
+  std::uint64_t chain = 0;
+  std::uint64_t planner = 0;  ///< those that were never planned with among them
 };
 
 /// The stages on their threads, from messages to setpoints: what flies. Recorder and health take from its hand-overs.
@@ -60,7 +60,8 @@ class FlightProcess {
   [[nodiscard]] std::vector<std::string> takeStalls();
 
   [[nodiscard]] LateFrames lateFrames() const {
-    return {index_deadline_.missed(), chain_deadline_.missed(), planner_deadline_.missed()};
+    return {index_deadline_.missed(), chain_deadline_.missed(),
+            planner_deadline_.missed() + stages_.hand_overs.moments.replaced()};
   }
 
   /// Rounds of the sink that began late by more than half a period.

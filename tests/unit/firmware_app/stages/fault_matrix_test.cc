@@ -161,6 +161,41 @@ TEST_F(FlightFaults, FrozenPictureOfAStandingVehicleIsNone) {
   EXPECT_EQ(flight_.state(), State::kReady);
 }
 
+class FlightByTheTimeOfDay : public ::testing::TestWithParam<Duration> {
+ protected:
+  FlightByTheTimeOfDay() {
+    flight_.run(4s);
+    flight_.order();
+    flight_.run(2s);
+    EXPECT_EQ(flight_.state(), State::kFlying);
+    flight_.forgetStates();
+  }
+
+  static Configuration byTheTimeOfDay() {
+    Configuration configuration = FlightOnAFakeClock::configuration();
+    configuration.lcm.clock = ClockDomain::kRealtime;
+    return configuration;
+  }
+
+  FlightOnAFakeClock flight_{byTheTimeOfDay()};
+};
+
+TEST_P(FlightByTheTimeOfDay, GoesOnWhenItIsSet) {
+  flight_.setTimeOfDay(GetParam());
+  flight_.run(5s);
+  EXPECT_EQ(flight_.state(), State::kFlying);
+  EXPECT_FALSE(flight_.wasIn(State::kBraking));
+}
+
+TEST_P(FlightByTheTimeOfDay, EndsWithAStreamThatStopsThen) {
+  flight_.setTimeOfDay(GetParam());
+  flight_.breakIt(Broken::kPose, How::kStuck);
+  flight_.run(8s);
+  EXPECT_EQ(flight_.state(), State::kLost);
+}
+
+INSTANTIATE_TEST_SUITE_P(FlightFaults, FlightByTheTimeOfDay, ::testing::Values(50ms, 3600s, -50ms, -3600s));
+
 TEST_F(FlightFaults, SinkThatIsOffSendsNothing) {
   const std::size_t sent = flight_.autopilot.targets.size();
   flight_.breakIt(Broken::kSink, How::kOff);

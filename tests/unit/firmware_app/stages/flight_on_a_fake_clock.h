@@ -91,7 +91,8 @@ class FlightOnAFakeClock {
   static constexpr double kHeading_rad = 1.2;  ///< of W in NED
 
   explicit FlightOnAFakeClock(const Configuration& configuration = FlightOnAFakeClock::configuration())
-      : stages_(configuration, Duration::zero(), autopilot) {
+      : stamps_of_day_(configuration.lcm.clock == ClockDomain::kRealtime),
+        stages_(configuration, time_of_day_ahead_, autopilot) {
     autopilot.now = now_;
     autopilot.state.linked = true;
     autopilot.state.armed = true;
@@ -114,6 +115,9 @@ class FlightOnAFakeClock {
   /// Breaks something from now on.
   void breakIt(Broken what, How how) { broken_ = {what, how, now_}; }
   void mend() { broken_.reset(); }
+
+  /// Sets the host's time of day forward, or back. Streams are stamped by it with ClockDomain::kRealtime.
+  void setTimeOfDay(Duration forward) { time_of_day_ahead_ += forward; }
 
   void order() {
     autopilot.state.external_control = true;
@@ -208,7 +212,7 @@ class FlightOnAFakeClock {
   [[nodiscard]] Time stampNow() const {
     if (is(Broken::kClock, How::kLate)) return now_ - std::chrono::seconds(1);
     if (is(Broken::kClock, How::kJumping)) return now_ + std::chrono::milliseconds(300);
-    return now_;
+    return stamps_of_day_ ? now_ + time_of_day_ahead_ : now_;
   }
 
   [[nodiscard]] Pose T_W_B() const {
@@ -280,6 +284,7 @@ class FlightOnAFakeClock {
   }
 
   void take(InputKind kind, const std::vector<std::uint8_t>& bytes) {
+    stages_.ingest.noteRealtime(time_of_day_ahead_, now_);
     stages_.ingest.take(kind, bytes, stages_.ingest.arrivalAt(now_));
   }
 
@@ -292,6 +297,8 @@ class FlightOnAFakeClock {
 
   NedFromWorld T_NED_W_{kHeading_rad, {40.0, -20.0, -3.0}};
   CameraModel camera_{smallCamera()};
+  bool stamps_of_day_;
+  Duration time_of_day_ahead_ = std::chrono::hours(480'000);
   Stages stages_;
   Time now_ = Time(std::chrono::seconds(1000)) - kTick;
   std::int64_t ticks_ = 0;
