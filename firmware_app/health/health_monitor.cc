@@ -27,12 +27,13 @@ class CounterList {
  public:
   explicit CounterList(health_t& health) : health_(health) {}
 
-  void add(std::string name, std::uint64_t value) {
+  void add(std::string name, std::int64_t value) {
     counter_t counter;
     counter.name = std::move(name);
-    counter.value = static_cast<std::int64_t>(value);
+    counter.value = value;
     health_.counters.push_back(std::move(counter));
   }
+  void add(std::string name, std::uint64_t value) { add(std::move(name), static_cast<std::int64_t>(value)); }
   /// Faults are listed once they have happened.
   void addIfAny(std::string name, std::uint64_t value) {
     if (value > 0) add(std::move(name), value);
@@ -75,6 +76,7 @@ std::int64_t counterOf(const health_t& health, std::string_view name) {
 
 constexpr std::string_view kDropped = "dropped on the way";
 constexpr std::string_view kClockSet = "time of day: set";
+constexpr std::string_view kClockSetBy = "time of day: last set by, in ms";
 
 /// Streams whose loss is told.
 constexpr std::array kCountedStreams = {InputKind::kDepth, InputKind::kPose, InputKind::kCorrection};
@@ -158,7 +160,11 @@ void HealthMonitor::addCounters(health_t& health, const NamedCounters& others) c
     list.addIfAny(kind + ": ahead of our clock", ingest_.from_future[i]);
     list.addIfAny(kind + ": before the log's clock was known", ingest_.before_clock[i]);
   }
-  list.addIfAny(std::string(kClockSet), ingest_.clock_steps);
+  if (ingest_.clock_steps > 0) {
+    list.add(std::string(kClockSet), ingest_.clock_steps);
+    list.add(std::string(kClockSetBy),
+             std::chrono::duration_cast<std::chrono::milliseconds>(ingest_.last_clock_step).count());
+  }
   list.add("views", index_.views);
   list.addEach<ImageFault>("frames: ", index_.image_faults);
   list.addEach<CameraFault>("frames: ", index_.camera_faults);
@@ -202,7 +208,9 @@ std::string statusLine(const health_t& health) {
   if (const std::string lost = lostOf(health); !lost.empty()) line += " | lost: " + lost;
   if (const std::int64_t late = counterOf(health, kLateFrames); late > 0)
     line += fmt::format(" | late frames {}", late);
-  if (const std::int64_t set = counterOf(health, kClockSet); set > 0) line += fmt::format(" | time of day set {}", set);
+  if (const std::int64_t set = counterOf(health, kClockSet); set > 0) {
+    line += fmt::format(" | time of day set {} x, by {:+} ms", set, counterOf(health, kClockSetBy));
+  }
   return line;
 }
 

@@ -14,7 +14,7 @@ constexpr double kMuchLonger = 1.75;
 void NumberedStream::arrived(std::uint64_t sequence, Time stamp) {
   if (!newest_) return begin({sequence, stamp});
   if (sequence > newest_->sequence) return advance({sequence, stamp});
-  if (stamp > newest_->stamp) {
+  if (stamp > newest_->stamp || newest_->stamp - stamp > kMaxPause) {
     ++loss_.began_again;
     return begin({sequence, stamp});
   }

@@ -21,6 +21,10 @@ struct StreamLoss {
   [[nodiscard]] std::uint64_t lost() const { return missing + suspected; }
 };
 
+/// A stream that is silent for longer has been switched off, and a message that is older than the newest by more did
+/// not come late: the publisher has started anew.
+inline constexpr Duration kMaxPause = std::chrono::seconds(5);
+
 /// Counts what is lost of a stream whose publisher numbers its messages. A message with a number from before and a
 /// stamp from after the newest one's is the first of a publisher that has started anew, and so is one that leaps ahead
 /// of all that can have been lost: neither is a loss. One that does not count at all starts anew all the time.
@@ -56,8 +60,6 @@ class NumberedStream {
 /// Threads: one. Allocates: no.
 class StampedStream {
  public:
-  /// A longer pause is no loss: the publisher has been switched off.
-  static constexpr Duration kMaxPause = std::chrono::seconds(5);
   /// Intervals that have to be known first.
   static constexpr std::size_t kKnownIntervals = 15;
 

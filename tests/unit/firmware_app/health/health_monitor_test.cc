@@ -101,10 +101,13 @@ TEST_F(HealthMonitorTest, WhatWasLostOnTheWayHereIsToldByStreamAndInTheStatusLin
 
 TEST_F(HealthMonitorTest, LateFramesAStuckCameraAndASetClockAreTold) {
   hand_overs_.chain_counters.put([](ChainStageCounters& counters) { counters.stuck_views = 5; });
-  hand_overs_.ingest_counters.put([](IngestCounters& counters) { counters.clock_steps = 1; });
+  hand_overs_.ingest_counters.put([](IngestCounters& counters) {
+    counters.clock_steps = 1;
+    counters.last_clock_step = -2s;
+  });
   const health_t health = monitor_.report(Time(1s), {{std::string(kLateFrames), 4}});
   EXPECT_EQ(counter(health, "views: of a camera that is stuck"), 5);
-  EXPECT_THAT(statusLine(health), HasSubstr("late frames 4 | time of day set 1"));
+  EXPECT_THAT(statusLine(health), HasSubstr("late frames 4 | time of day set 1 x, by -2000 ms"));
 }
 
 TEST_F(HealthMonitorTest, AllThatWasCountedFitsALine) {
