@@ -1,6 +1,6 @@
 """Flies the real flight process through a simulated scene, over LCM and MAVLink, and says what happens.
 
-What it does not know goes to nanomap-sim: --seed 3, --speed 5, --correction-hz 2, --camera-off 5:1 and more.
+What it does not know goes to nanomap-sim: --seed 3, --speed 5, --correction-hz 2, --fault camera-late:5:1 and more.
 Exit code 0: it stands at the goal; 2: it does not; 1: it could not be flown.
 """
 
