@@ -7,16 +7,16 @@ namespace {
 
 // POSITION_TARGET_TYPEMASK of the MAVLink common dialect: each bit tells to ignore something.
 constexpr std::uint16_t kIgnorePosition = 0b111;
-constexpr std::uint16_t kIgnoreAcceleration = 0b111 << 6;
 constexpr std::uint16_t kIgnoreYaw = 1 << 10;
 constexpr std::uint16_t kIgnoreYawRate = 1 << 11;
 
-LocalNedTarget targetAt(Time stamp, const Vec3& velocity_W_m_s, const std::optional<double>& yaw_W_rad,
-                        const NedFromWorld& T_NED_W) {
+LocalNedTarget targetAt(Time stamp, const Vec3& velocity_W_m_s, const Vec3& acceleration_W_m_s2,
+                        const std::optional<double>& yaw_W_rad, const NedFromWorld& T_NED_W) {
   LocalNedTarget target;
   target.time_boot_ms = bootMilliseconds(stamp);
   target.type_mask = kIgnoreYawRate;
   target.velocity_NED_m_s = T_NED_W.direction(velocity_W_m_s).cast<float>();
+  target.acceleration_NED_m_s2 = T_NED_W.direction(acceleration_W_m_s2).cast<float>();
   if (yaw_W_rad) {
     target.yaw_NED_rad = static_cast<float>(T_NED_W.heading(*yaw_W_rad));
   } else {
@@ -33,15 +33,17 @@ bool LocalNedTarget::isFinite() const {
 }
 
 LocalNedTarget toNed(const MotionSetpoint& setpoint, const NedFromWorld& T_NED_W) {
-  LocalNedTarget target = targetAt(setpoint.stamp, setpoint.motion_W.velocity_m_s, setpoint.yaw_W_rad, T_NED_W);
-  target.position_NED_m = T_NED_W.point(setpoint.motion_W.position_m).cast<float>();
-  target.acceleration_NED_m_s2 = T_NED_W.direction(setpoint.motion_W.acceleration_m_s2).cast<float>();
+  const Motion& motion_W = setpoint.motion_W;
+  LocalNedTarget target =
+      targetAt(setpoint.stamp, motion_W.velocity_m_s, motion_W.acceleration_m_s2, setpoint.yaw_W_rad, T_NED_W);
+  target.position_NED_m = T_NED_W.point(motion_W.position_m).cast<float>();
   return target;
 }
 
 LocalNedTarget toNed(const VelocitySetpoint& setpoint, const NedFromWorld& T_NED_W) {
-  LocalNedTarget target = targetAt(setpoint.stamp, setpoint.velocity_W_m_s, setpoint.yaw_W_rad, T_NED_W);
-  target.type_mask |= kIgnorePosition | kIgnoreAcceleration;
+  LocalNedTarget target =
+      targetAt(setpoint.stamp, setpoint.velocity_W_m_s, setpoint.acceleration_W_m_s2, setpoint.yaw_W_rad, T_NED_W);
+  target.type_mask |= kIgnorePosition;
   return target;
 }
 

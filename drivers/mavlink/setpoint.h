@@ -17,10 +17,12 @@ struct MotionSetpoint {
   std::optional<double> yaw_W_rad;  ///< empty: the autopilot keeps its heading
 };
 
-/// How to move only: for a vehicle that no longer knows where it is.
+/// How to move only: for a vehicle that no longer knows where it is. Without the acceleration an autopilot would lag
+/// behind, and stop a good way after the place that was verified.
 struct VelocitySetpoint {
   Time stamp{};
   Vec3 velocity_W_m_s = Vec3::Zero();
+  Vec3 acceleration_W_m_s2 = Vec3::Zero();
   std::optional<double> yaw_W_rad;
 };
 

@@ -28,7 +28,8 @@ SystemStatus statusOf(const SafetyVerdict& verdict) {
 
 LocalNedTarget toNed(Time now, const CommandedMotion& commanded, const NedFromWorld& T_NED_W) {
   if (commanded.with_position) return toNed(MotionSetpoint{now, commanded.motion_W, commanded.yaw_W_rad}, T_NED_W);
-  return toNed(VelocitySetpoint{now, commanded.motion_W.velocity_m_s, commanded.yaw_W_rad}, T_NED_W);
+  const Motion& motion_W = commanded.motion_W;
+  return toNed(VelocitySetpoint{now, motion_W.velocity_m_s, motion_W.acceleration_m_s2, commanded.yaw_W_rad}, T_NED_W);
 }
 
 }  // namespace
@@ -73,7 +74,8 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs) const {
   if (plan && vehicle.state && plan->consumed.epoch == vehicle.state->epoch) situation.plan = plan->stamp;
   if (const auto& decision = in_force_.decision()) {
     situation.brake_end = decision->brake.start() + fromSeconds(decision->brake.duration_s());
-    situation.anchored_before_jump = decision->consumed.epoch != alignment.epoch;
+    const bool silent = alignment.verdict == AlignmentVerdict::kUnknown && alignment.T_NED_W;
+    situation.anchored_before = silent || decision->consumed.epoch != alignment.epoch;
   }
   situation.linked = inputs.autopilot.linked;
   situation.live_refused = isRefused(inputs);

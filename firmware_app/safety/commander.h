@@ -44,7 +44,7 @@ struct CommandInputs {
 struct CommandedMotion {
   Motion motion_W;
   double yaw_W_rad = 0.0;
-  bool with_position = true;              ///< else only the velocity is told
+  bool with_position = true;              ///< else only velocity and acceleration are told
   std::optional<std::uint64_t> decision;  ///< that it was sampled from, by the planner's count; empty for a hold
 };
 

@@ -130,7 +130,7 @@ Stream StateMachine::stream(const Situation& situation) const {
     case State::kLost:
       return Stream::kNone;
   }
-  const bool positions_hold = situation.anchored || situation.anchored_before_jump;
+  const bool positions_hold = situation.anchored || situation.anchored_before;
   return positions_hold && !faults_.has(Fault::kPose) ? Stream::kMotion : Stream::kVelocity;
 }
 

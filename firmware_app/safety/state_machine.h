@@ -22,8 +22,8 @@ namespace nanomap {
 /// | Flying  | the motion in force       | Braking    | a fault                                                   |
 /// |         |                           | Waiting    | the pilot has left external control, or has disarmed      |
 /// | Braking | its brake, to a standstill| Waiting    | as above                                                  |
-/// |         | (velocities only, where   | Flying     | no fault for `settle`                                     |
-/// |         | positions mean nothing)   | Lost       | stopped                                                   |
+/// |         | (no positions, where they | Flying     | no fault for `settle`                                     |
+/// |         | mean nothing)             | Lost       | stopped                                                   |
 /// | Lost    | none: the autopilot's own | Waiting    | the pilot has left external control, or has disarmed      |
 /// |         | failsafe acts             |            |                                                           |
 ///
@@ -43,7 +43,7 @@ enum class Stream : std::uint8_t {
   kNone,
   kHold,      ///< stay where you are
   kMotion,    ///< the motion in force, with positions
-  kVelocity,  ///< its velocities only
+  kVelocity,  ///< its velocities and accelerations only
 };
 
 [[nodiscard]] std::string_view toString(Stream stream);
@@ -60,9 +60,9 @@ struct Situation {
   std::optional<double> speed_m_s;
   bool stalled = false;
   bool anchored = false;  ///< T_NED_W is known well for the world that poses are in now
-  /// The motion's world is another than the poses', after a jump of the estimator: where it is in NED is known from
-  /// before, and still holds.
-  bool anchored_before_jump = false;
+  /// Where the motion's world is in NED is known from before, and still holds: the estimator has jumped since, and the
+  /// poses' world is another; or the autopilot no longer tells where it is.
+  bool anchored_before = false;
 
   bool live_refused = false;  ///< the autopilot flies a real vehicle, and what we see is a recording
   bool linked = false;        ///< the autopilot is heard

@@ -33,7 +33,7 @@ class Streamer {
     MavlinkLink link({.url = url}, monotonicNow);
     for (;; poll(nullptr, 0, kPeriod_ms)) {
       link.keepAlive(SystemStatus::kActive);
-      (void)link.send(toNed(VelocitySetpoint{monotonicNow(), {1.0, 0.0, 0.0}, {}}, NedFromWorld()));
+      (void)link.send(toNed(VelocitySetpoint{monotonicNow(), {1.0, 0.0, 0.0}, Vec3::Zero(), {}}, NedFromWorld()));
     }
   }
 

@@ -139,6 +139,21 @@ TEST_F(CommanderInFlight, LostPoseIsBrakedForWithVelocitiesOnly) {
   EXPECT_GT(command.target.velocity_NED_m_s.norm(), 2.0F);
 }
 
+TEST_F(CommanderInFlight, SilentAutopilotIsBrakedAlongThePlacesThatWereVerified) {
+  CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 4.0));
+  now_ += std::chrono::milliseconds(100);
+  (void)commander_.step(now_, inputs);
+  inputs.alignment.verdict = AlignmentVerdict::kUnknown;  // what was known before is still there
+  now_ += kStep;
+  Command command = commander_.step(now_, inputs);
+  EXPECT_EQ(command.verdict.state, State::kBraking);
+  EXPECT_EQ(command.target.type_mask & 0b111, 0);
+  inputs.alignment.verdict = AlignmentVerdict::kInconsistent;  // it says something else
+  now_ += kStep;
+  command = commander_.step(now_, inputs);
+  EXPECT_EQ(command.target.type_mask & 0b111, 0b111);
+}
+
 // The estimator's world jumps by tens of metres and 40 degrees; the autopilot's does not.
 TEST_F(CommanderInFlight, JumpOfTheEstimatorNeverStepsTheSetpoint) {
   constexpr float kLargestStep_m = 0.15F;  // 4 m/s for a step, and what braking adds

@@ -307,7 +307,7 @@ const FaultCase kFaultCases[] = {
     {"EstimatorJumped",
      [](Situation& s, Time) {
        s.anchored = false;
-       s.anchored_before_jump = true;
+       s.anchored_before = true;
      },
      Fault::kAlignment, kAtOnce, Stream::kMotion},
     {"AutopilotJumped", [](Situation& s, Time) { s.anchored = false; }, Fault::kAlignment, kAtOnce, Stream::kVelocity},
