@@ -48,24 +48,30 @@ bool becomesReadable(int descriptor, Duration timeout) {
 }  // namespace
 
 LcmNetwork::LcmNetwork(std::string_view url, std::vector<std::string> channels) {
-  const LcmUrl parsed = parseLcmUrl(url);
   std::for_each(channels.begin(), channels.end(), checkChannel);
   std::sort(channels.begin(), channels.end());
   channels.erase(std::unique(channels.begin(), channels.end()), channels.end());
+  std::transform(channels.begin(), channels.end(), channels.begin(), literally);
+  connect(url, channels);
+}
 
+LcmNetwork::LcmNetwork(std::string_view url, EveryChannel /*channels*/) { connect(url, {".*"}); }
+
+void LcmNetwork::connect(std::string_view url, const std::vector<std::string>& patterns) {
+  const LcmUrl parsed = parseLcmUrl(url);
   url_ = parsed.text;
   const std::vector<int> sockets_of_others = parsed.multicast ? udpSocketsOn(parsed.port) : std::vector<int>();
   lcm_ = std::make_unique<lcm::LCM>(url_);
   if (!lcm_->good()) {
     throw std::runtime_error("LCM: cannot reach '" + url_ + "'. " + std::string(kMulticastRemedy));
   }
-  if (channels.empty()) return;
+  if (patterns.empty()) return;
   notification_ = lcm_->getFileno();
   if (notification_ < 0) {
     throw std::runtime_error("LCM: cannot receive on '" + url_ + "': a message to ourselves did not arrive. " +
                              std::string(kMulticastRemedy));
   }
-  subscribe(channels);
+  subscribe(patterns);
   if (!parsed.multicast) return;
 
   std::vector<int> sockets = udpSocketsOn(parsed.port);
@@ -81,9 +87,9 @@ LcmNetwork::LcmNetwork(std::string_view url, std::vector<std::string> channels) 
 
 LcmNetwork::~LcmNetwork() = default;
 
-void LcmNetwork::subscribe(const std::vector<std::string>& channels) {
-  for (const std::string& channel : channels) {
-    lcm::Subscription* const subscription = lcm_->subscribe(literally(channel), &LcmNetwork::onMessage, this);
+void LcmNetwork::subscribe(const std::vector<std::string>& patterns) {
+  for (const std::string& pattern : patterns) {
+    lcm::Subscription* const subscription = lcm_->subscribe(pattern, &LcmNetwork::onMessage, this);
     subscription->setQueueCapacity(kMaxWaitingMessages);
     subscriptions_.push_back(subscription);
   }
@@ -128,6 +134,10 @@ bool LcmNetwork::publish(const std::string& channel, Bytes message) {
 
 LcmLoss LcmNetwork::loss() const {
   return {.datagrams = receiver_ ? receiver_->drops() : 0, .full_queues = full_queues_};
+}
+
+std::optional<int> LcmNetwork::receiveBufferBytes() const {
+  return receiver_ ? receiver_->bufferBytes() : std::nullopt;
 }
 
 }  // namespace nanomap

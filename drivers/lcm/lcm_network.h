@@ -32,6 +32,10 @@ struct LcmLoss {
   std::uint64_t full_queues = 0;  ///< times that a channel was found with kMaxWaitingMessages: more may have been lost
 };
 
+/// In place of channels: all that there are, for tools that look at a network. They share one queue of
+/// kMaxWaitingMessages.
+struct EveryChannel {};
+
 /// An LCM network, through liblcm. Receives on a thread of liblcm's, which is made here and inherits the scheduling of
 /// the thread that does: construct it before real-time scheduling begins.
 /// Threads: wait() from one; publish() and loss() from any.
@@ -42,6 +46,9 @@ class LcmNetwork : public MessageSource {
   /// @param channels  names, not patterns; those that occur twice count once; none: for publishing only
   /// @throws std::invalid_argument naming the URL or the channel; std::runtime_error naming the URL and what to do
   LcmNetwork(std::string_view url, std::vector<std::string> channels);
+
+  /// The same, listening to whatever is sent.
+  LcmNetwork(std::string_view url, EveryChannel channels);
   ~LcmNetwork() override;
 
   /// kEnded means that liblcm has failed. Allocates: what liblcm does. Reads no clock.
@@ -53,6 +60,9 @@ class LcmNetwork : public MessageSource {
 
   [[nodiscard]] LcmLoss loss() const;
 
+  /// What the kernel granted, of what was asked; empty without a UDP socket of ours to be found.
+  [[nodiscard]] std::optional<int> receiveBufferBytes() const;
+
   /// The URL with nothing left to liblcm's defaults.
   [[nodiscard]] const std::string& url() const { return url_; }
 
@@ -61,7 +71,8 @@ class LcmNetwork : public MessageSource {
 
  private:
   void onMessage(const lcm::ReceiveBuffer* buffer, const std::string& channel) noexcept;
-  void subscribe(const std::vector<std::string>& channels);
+  void connect(std::string_view url, const std::vector<std::string>& patterns);
+  void subscribe(const std::vector<std::string>& patterns);
   void noteFullQueues();
 
   std::string url_;

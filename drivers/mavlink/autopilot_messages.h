@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "core/geometry.h"
 
@@ -27,6 +28,12 @@ struct AttitudeMessage {
 
 struct LandedStateMessage {
   std::uint8_t landed_state = 0;  ///< MAV_LANDED_STATE
+};
+
+struct ParameterMessage {
+  std::string name;
+  float value = 0.0F;     ///< parameter_value.h tells what it means
+  std::uint8_t type = 0;  ///< MAV_PARAM_TYPE
 };
 
 }  // namespace nanomap

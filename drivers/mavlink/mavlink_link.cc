@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "drivers/mavlink/cmavsdk.h"
 #include "drivers/mavlink/outgoing_gate.h"
+#include "drivers/mavlink/parameter_value.h"
 
 namespace nanomap {
 namespace {
@@ -41,9 +43,10 @@ class Interception {
   mavsdk_handle_t handle_;
 };
 
+constexpr int kBindError = 3;  // of MAVSDK's connection results
+
 /// What the connection result of MAVSDK says to do.
 std::string_view remedyOf(int connection_result) {
-  constexpr int kBindError = 3;
   constexpr int kUrlInvalid = 12;
   constexpr int kBaudrateUnknown = 13;
   switch (connection_result) {
@@ -96,8 +99,10 @@ class MavlinkLink::Session {
         interception_(mavsdk_.get(), &Session::onOutgoing, this) {
     const int result = mavsdk_add_any_connection(mavsdk_.get(), parameters.url.c_str());
     if (result != MAVSDK_CONNECTION_RESULT_SUCCESS) {
-      throw std::runtime_error("MAVLink: cannot open '" + parameters.url + "' (MAVSDK's result " +
-                               std::to_string(result) + "): " + std::string(remedyOf(result)));
+      const std::string reason = "MAVLink: cannot open '" + parameters.url + "' (MAVSDK's result " +
+                                 std::to_string(result) + "): " + std::string(remedyOf(result));
+      if (result == kBindError) throw PortTaken(reason);
+      throw std::runtime_error(reason);
     }
   }
   Session(const Session&) = delete;
@@ -164,6 +169,25 @@ class MavlinkLink::Session {
     return monitor_.takePose();
   }
 
+  [[nodiscard]] std::optional<std::uint8_t> autopilotSystem() const {
+    return direct_ ? std::optional(autopilot_.system_id) : std::nullopt;
+  }
+
+  SendResult requestParameter(const std::string& name) {
+    {
+      const std::lock_guard lock(monitor_mutex_);
+      parameters_.try_emplace(name);
+    }
+    return sendMessage("PARAM_REQUEST_READ", toJson(ParameterRequest{name}, autopilot_));
+  }
+
+  std::optional<double> parameter(const std::string& name) {
+    const std::lock_guard lock(monitor_mutex_);
+    const auto told = parameters_.find(name);
+    if (told == parameters_.end() || !told->second) return std::nullopt;
+    return numberOf(*told->second, monitor_.state(now_()).kind);
+  }
+
   LinkCounters counters() {
     LinkCounters counters;
     counters.setpoints_sent = setpoints_sent_;
@@ -191,6 +215,7 @@ class MavlinkLink::Session {
     subscribe<LocalPositionMessage>("LOCAL_POSITION_NED");
     subscribe<AttitudeMessage>("ATTITUDE_QUATERNION");
     subscribe<LandedStateMessage>("EXTENDED_SYS_STATE");
+    subscribe<ParameterMessage>("PARAM_VALUE");
     return true;
   }
 
@@ -248,7 +273,16 @@ class MavlinkLink::Session {
       return;
     }
     const std::lock_guard lock(monitor_mutex_);
-    monitor_.receive(*fields, arrival);
+    keep(*fields, arrival);
+  }
+
+  template <class Message>
+  void keep(const Message& message, Time arrival) {
+    monitor_.receive(message, arrival);
+  }
+  void keep(const ParameterMessage& message, Time /*arrival*/) {
+    const auto wanted = parameters_.find(message.name);  // an autopilot may tell all of its hundreds
+    if (wanted != parameters_.end()) wanted->second = message;
   }
 
   /// On MAVSDK's sending thread.
@@ -265,6 +299,7 @@ class MavlinkLink::Session {
 
   std::mutex monitor_mutex_;
   AutopilotMonitor monitor_;
+  std::map<std::string, std::optional<ParameterMessage>> parameters_;  ///< that were asked for
 
   std::atomic<bool> own_heartbeats_ = false;
   Counter setpoints_sent_ = 0;
@@ -305,5 +340,8 @@ SendResult MavlinkLink::sendText(Severity severity, std::string_view text) {
 AutopilotState MavlinkLink::autopilot() const { return session_->autopilot(); }
 std::optional<AutopilotPose> MavlinkLink::takePose() { return session_->takePose(); }
 LinkCounters MavlinkLink::counters() const { return session_->counters(); }
+std::optional<std::uint8_t> MavlinkLink::autopilotSystem() const { return session_->autopilotSystem(); }
+SendResult MavlinkLink::requestParameter(const std::string& name) { return session_->requestParameter(name); }
+std::optional<double> MavlinkLink::parameter(const std::string& name) const { return session_->parameter(name); }
 
 }  // namespace nanomap

@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "core/time.h"
@@ -23,6 +25,12 @@ struct LinkCounters {
   AutopilotMonitorCounters autopilot;
 };
 
+/// The port of the URL is another process's: the flight process's, say.
+class PortTaken : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The MAVLink connection to one autopilot, through MAVSDK. A message is sent when and only when send() is called: no
 /// setpoint is ever repeated, and one that was held up for kMaxSetpointAge is dropped. The vehicle's mode and its
 /// arming are the pilot's: nothing here changes them.
@@ -34,7 +42,8 @@ class MavlinkLink : public AutopilotLink {
 
   /// Opens the connection; the autopilot may appear later.
   /// @param now  the process's clock, read from any thread; must neither block nor throw
-  /// @throws std::invalid_argument, std::runtime_error naming the parameter or the URL and what to do about it
+  /// @throws PortTaken, std::invalid_argument, std::runtime_error naming the parameter or the URL and what to do about
+  /// it
   MavlinkLink(const LinkParameters& parameters, Clock now);
   ~MavlinkLink() override;
 
@@ -46,6 +55,15 @@ class MavlinkLink : public AutopilotLink {
   [[nodiscard]] AutopilotState autopilot() const override;
   [[nodiscard]] std::optional<AutopilotPose> takePose() override;
   [[nodiscard]] LinkCounters counters() const;
+
+  /// The system id of the autopilot; empty until it is discovered. Threads: that of keepAlive().
+  [[nodiscard]] std::optional<std::uint8_t> autopilotSystem() const;
+
+  /// Asks for a parameter of the autopilot, which may not answer. Nothing here ever sets one. Threads: that of
+  /// keepAlive().
+  [[nodiscard]] SendResult requestParameter(const std::string& name);
+  /// The parameter as it was last told; empty if it was not.
+  [[nodiscard]] std::optional<double> parameter(const std::string& name) const;
 
  private:
   class Session;

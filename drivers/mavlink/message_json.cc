@@ -48,6 +48,13 @@ class FieldReader {
     return field->get<Unsigned>();
   }
 
+  [[nodiscard]] std::string text(const char* name) {
+    const json* field = find(name);
+    if (field && field->is_string()) return field->get<std::string>();
+    ok_ = false;
+    return {};
+  }
+
   [[nodiscard]] Vec3 vector(const char* x, const char* y, const char* z) { return {number(x), number(y), number(z)}; }
 
   template <class Message>
@@ -157,6 +164,15 @@ std::string toJson(const MessageIntervalRequest& request, const MavlinkAddress& 
       .dump();
 }
 
+std::string toJson(const ParameterRequest& request, const MavlinkAddress& to) {
+  constexpr int kByName = -1;
+  return json{{"target_system", to.system_id},
+              {"target_component", to.component_id},
+              {"param_id", request.name},
+              {"param_index", kByName}}
+      .dump();
+}
+
 template <>
 std::optional<HeartbeatMessage> fromJson(std::string_view fields) {
   FieldReader reader(fields);
@@ -196,6 +212,16 @@ std::optional<LandedStateMessage> fromJson(std::string_view fields) {
   FieldReader reader(fields);
   LandedStateMessage message;
   message.landed_state = reader.integer<std::uint8_t>("landed_state");
+  return reader.finish(message);
+}
+
+template <>
+std::optional<ParameterMessage> fromJson(std::string_view fields) {
+  FieldReader reader(fields);
+  ParameterMessage message;
+  message.name = reader.text("param_id");
+  message.value = static_cast<float>(reader.number("param_value"));
+  message.type = reader.integer<std::uint8_t>("param_type");
   return reader.finish(message);
 }
 

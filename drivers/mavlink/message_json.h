@@ -37,6 +37,11 @@ struct MessageIntervalRequest {
   Duration interval{};
 };
 
+/// PARAM_REQUEST_READ.
+struct ParameterRequest {
+  std::string name;  ///< at most 16 bytes
+};
+
 [[nodiscard]] std::string toJson(SystemStatus status);  ///< HEARTBEAT
 [[nodiscard]] std::string toJson(const LocalNedTarget& target, const MavlinkAddress& to);
 [[nodiscard]] std::string toJson(const ObstacleDistances& distances);
@@ -44,6 +49,7 @@ struct MessageIntervalRequest {
 [[nodiscard]] std::string toJson(const OdometryMessage& odometry, Duration since_boot);
 [[nodiscard]] std::string toJson(const StatusTextChunk& chunk);
 [[nodiscard]] std::string toJson(const MessageIntervalRequest& request, const MavlinkAddress& to);
+[[nodiscard]] std::string toJson(const ParameterRequest& request, const MavlinkAddress& to);
 
 /// The fields in text that nobody vouches for; empty if one that is read is missing, of another type, out of its
 /// range, or not finite.
@@ -57,6 +63,8 @@ template <>
 [[nodiscard]] std::optional<AttitudeMessage> fromJson(std::string_view fields);
 template <>
 [[nodiscard]] std::optional<LandedStateMessage> fromJson(std::string_view fields);
+template <>
+[[nodiscard]] std::optional<ParameterMessage> fromJson(std::string_view fields);
 
 /// One unsigned field of a message; empty as above.
 [[nodiscard]] std::optional<std::uint32_t> fieldFromJson(std::string_view fields, const char* name);

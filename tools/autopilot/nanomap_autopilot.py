@@ -22,6 +22,7 @@ import time
 import numpy as np
 import telemetry as streams
 from flight_rules import RULES
+from parameters import Parameters
 from pymavlink.dialects.v20 import common as mavlink
 from transport import Serial, Tcp, Udp
 from vehicle import Vehicle
@@ -59,10 +60,13 @@ class Endpoint:
 
 
 class Autopilot:
-    def __init__(self, rules_name: str, loss_s: float | None, vehicle: Vehicle, transport, truth_transport=None):
-        """`truth_transport` leads to who is told where the vehicle really is; it commands nothing."""
+    def __init__(self, rules_name: str, loss_s: float | None, vehicle: Vehicle, transport, truth_transport=None,
+                 parameters: dict[str, float] | None = None):
+        """`truth_transport` leads to who is told where the vehicle really is; it commands nothing. `parameters` are
+        told as given, but not obeyed."""
         rules, usual_loss_s = RULES[rules_name]
         self.rules = rules(usual_loss_s if loss_s is None else loss_s)
+        self.parameters = Parameters(rules_name, self.rules.loss_s, parameters or {})
         self.vehicle = vehicle
         self.mode = next(iter(self.rules.MODES))
         self.armed = not vehicle.body.landed
@@ -147,6 +151,8 @@ class Autopilot:
             self.rules.setpoint(time.monotonic())
         elif name == "COMMAND_LONG":
             self._command(message, endpoint)
+        elif name == "PARAM_REQUEST_READ":
+            self.parameters.answer(message, endpoint.link)
         elif name == "TIMESYNC" and message.tc1 == 0:
             endpoint.link.timesync_send(time.monotonic_ns(), message.ts1)
 
@@ -212,12 +218,16 @@ def main() -> None:
                         help="tell a simulator of the sensors that listens at this port where the vehicle really is")
     parser.add_argument("--altitude", type=float, default=0.0, metavar="M", help="begin armed, hovering at it")
     parser.add_argument("--heading", type=float, default=0.0, metavar="DEG", help="begin so, clockwise from north")
+    parser.add_argument("--param", action="append", default=[], metavar="NAME=VALUE",
+                        help="tell this value of a parameter, which is not obeyed; may be repeated")
     arguments = parser.parse_args()
+    parameters = {name: float(value) for name, value in (setting.split("=", 1) for setting in arguments.param)}
     transport = Udp(arguments.udp) if arguments.udp else Tcp() if arguments.tcp else Serial()
     truth_transport = Udp(arguments.truth_udp) if arguments.truth_udp else None
     vehicle = Vehicle(arguments.altitude, math.radians(arguments.heading))
     with contextlib.suppress(KeyboardInterrupt):
-        Autopilot(arguments.rules, arguments.loss, vehicle, transport, truth_transport).run()
+        Autopilot(arguments.rules, arguments.loss, vehicle, transport, truth_transport,
+                  parameters).run()
 
 
 if __name__ == "__main__":
