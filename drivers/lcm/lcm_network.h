@@ -34,7 +34,10 @@ struct LcmLoss {
 
 /// In place of channels: all that there are, for tools that look at a network. They share one queue of
 /// kMaxWaitingMessages.
-struct EveryChannel {};
+struct EveryChannel {
+  explicit constexpr EveryChannel(int /*unused*/) {}  // like std::nullopt_t, so that {} is a list without channels
+};
+inline constexpr EveryChannel kEveryChannel(0);
 
 /// An LCM network, through liblcm. Receives on a thread of liblcm's, which is made here and inherits the scheduling of
 /// the thread that does: construct it before real-time scheduling begins.

@@ -15,7 +15,9 @@ namespace nanomap::doctor {
 namespace {
 
 constexpr const char* kSubject = "depth unit";
-constexpr std::array kPowers = {0.001, 0.01, 0.1, 10.0, 100.0, 1000.0};
+
+/// What units are mistaken by; of those that explain as much, the first is named.
+constexpr std::array kPowers = {0.1, 10.0, 0.01, 100.0, 0.001, 1000.0};
 
 std::optional<Finding> judgeContradiction(const Facts& facts, const CameraParameters& camera,
                                           const CameraModel& model) {

@@ -64,7 +64,7 @@ class AutopilotSurvey {
 /// Null if there is none, which `facts` tells then.
 std::unique_ptr<LcmNetwork> openNetwork(Facts& facts) {
   try {
-    return std::make_unique<LcmNetwork>(facts.configuration.lcm.url, EveryChannel{});
+    return std::make_unique<LcmNetwork>(facts.configuration.lcm.url, kEveryChannel);
   } catch (const std::exception& error) {
     facts.lcm_fault = error.what();
     return nullptr;

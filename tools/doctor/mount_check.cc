@@ -17,7 +17,8 @@ std::string fixOf(const Facts& facts, const Hypothesis& mount) {
   const std::string key = fmt::format("camera.mount_roll_pitch_yaw_deg = [{:g}, {:g}, {:g}]", tidy(angles.roll_deg),
                                       tidy(angles.pitch_deg), tidy(angles.yaw_deg));
   if (facts.configuration.camera) return key;
-  const Quat& q = mount.trial.T_B_C.rotation;
+  Quat q = mount.trial.T_B_C.rotation;
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();  // the same rotation, as people write it
   return fmt::format(
       "in the camera's message body_from_camera.rotation = [{:.4g}, {:.4g}, {:.4g}, {:.4g}] (w, x, y, z); "
       "or in [camera], {}",

@@ -47,25 +47,21 @@ std::optional<Fault> judgeLoss(double value_s, const Facts& facts) {
 }
 
 std::optional<Fault> judgeLossAction(double value, const Facts& /*facts*/) {
-  constexpr int kPosition = 0;
-  constexpr int kAltitude = 1;
-  constexpr int kManual = 2;
-  constexpr int kReturn = 3;
-  constexpr int kHold = 5;
-  constexpr int kTerminate = 6;
-  const std::string hold = fmt::format("{} (hold), or 4 (land)", kHold);
-  switch (static_cast<int>(std::lround(value))) {
-    case kPosition:
-    case kAltitude:
-    case kManual:
-      return Fault{Verdict::kFailure, "when the stream of setpoints ends, it is in the hands of a pilot at the sticks",
-                   hold};
-    case kReturn:
-      return Fault{Verdict::kWarning, "when the stream of setpoints ends, it returns, and sees no obstacles", hold};
-    default:
-      if (value < kTerminate) return std::nullopt;
-      return Fault{Verdict::kFailure, "when the stream of setpoints ends, it falls", hold};
+  constexpr long kLastOfThePilot = 2;  // position, altitude, manual
+  constexpr long kReturn = 3;
+  constexpr long kLand = 4;
+  constexpr long kHold = 5;
+  const std::string hold = fmt::format("{} (hold), or {} (land)", kHold, kLand);
+  const long action = std::lround(value);
+  if (action == kLand || action == kHold) return std::nullopt;
+  if (action == kReturn) {
+    return Fault{Verdict::kWarning, "when the stream of setpoints ends, it returns, and sees no obstacles", hold};
   }
+  return Fault{Verdict::kFailure,
+               action >= 0 && action <= kLastOfThePilot
+                   ? "when the stream of setpoints ends, it is in the hands of a pilot at the sticks"
+                   : "when the stream of setpoints ends, it falls, or does nothing",
+               hold};
 }
 
 std::optional<Fault> judgeVisionControl(double value, const Facts& facts) {

@@ -84,6 +84,16 @@ TEST_F(LcmNetworkTest, HearsOnlyItsChannelsAndTakesTheirNamesLiterally) {
   EXPECT_THAT(heard_, ElementsAre("A.B:", "(C)*:"));
 }
 
+TEST_F(LcmNetworkTest, HearsEveryChannelIfAskedTo) {
+  LcmNetwork receiver(url(), kEveryChannel);
+  LcmNetwork sender(url(), {});
+  EXPECT_GE(receiver.receiveBufferBytes(), 1);
+  EXPECT_EQ(sender.receiveBufferBytes(), std::nullopt);
+  for (const char* channel : {"A", "B.C", "(D)*"}) send(sender, channel, "");
+  hear(receiver, 3);
+  EXPECT_THAT(heard_, ElementsAre("A:", "B.C:", "(D)*:"));
+}
+
 TEST_F(LcmNetworkTest, WaitsNoLongerThanItMay) {
   LcmNetwork network(url(), {"A"});
   const auto start = std::chrono::steady_clock::now();

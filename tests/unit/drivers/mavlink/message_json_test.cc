@@ -15,7 +15,8 @@ using nlohmann::json;
 constexpr const char* kHeartbeat =
     R"({"message_id":0,"autopilot":12,"base_mode":209,"custom_mode":393216,"mavlink_version":3,"type":2})";
 constexpr const char* kPosition = R"({"time_boot_ms":4294967295,"x":1.5,"y":-2.5,"z":3,"vx":0.1,"vy":0.2,"vz":-0.3})";
-constexpr const char* kAttitude = R"({"time_boot_ms":7,"q1":0.6,"q2":0.0,"q3":0,"q4":0.8,"rollspeed":0.5,"pitchspeed":-2,"yawspeed":1e-3})";
+constexpr const char* kAttitude =
+    R"({"time_boot_ms":7,"q1":0.6,"q2":0.0,"q3":0,"q4":0.8,"rollspeed":0.5,"pitchspeed":-2,"yawspeed":1e-3})";
 
 /// `fields` with one of them set to something else.
 std::string with(const char* fields, const char* name, const json& value) {
@@ -116,6 +117,25 @@ TEST(MessageJson, AsksForIntervalsInMicroseconds) {
   EXPECT_EQ(fields["command"], 511);
   EXPECT_EQ(fields["param1"], 32);
   EXPECT_EQ(fields["param2"], 20'000);
+}
+
+TEST(MessageJson, AsksForParametersByName) {
+  const json fields = json::parse(toJson(ParameterRequest{"COM_OF_LOSS_T"}, {7, 1}));
+  EXPECT_EQ(fields["param_id"], "COM_OF_LOSS_T");
+  EXPECT_EQ(fields["param_index"], -1);
+  EXPECT_EQ(fields["target_system"], 7);
+}
+
+TEST(MessageJson, ReadsParameters) {
+  const auto message =
+      fromJson<ParameterMessage>(R"({"param_id": "GUID_TIMEOUT", "param_value": 2.5, "param_type": 9})");
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->name, "GUID_TIMEOUT");
+  EXPECT_EQ(message->value, 2.5F);
+  EXPECT_EQ(message->type, 9);
+  EXPECT_FALSE(fromJson<ParameterMessage>(R"({"param_id": 7, "param_value": 2.5, "param_type": 9})"));
+  EXPECT_FALSE(fromJson<ParameterMessage>(R"({"param_id": "A", "param_value": null, "param_type": 9})"));
+  EXPECT_FALSE(fromJson<ParameterMessage>(R"({"param_id": "A", "param_value": 2.5})"));
 }
 
 }  // namespace
