@@ -6,6 +6,8 @@ std::string_view toString(Reason reason) {
   switch (reason) {
     case Reason::kFlying:
       return "flying";
+    case Reason::kGoingRound:
+      return "going round what is in the way";
     case Reason::kAtGoal:
       return "at the goal";
     case Reason::kSlowing:

@@ -14,6 +14,7 @@ namespace nanomap {
 /// Why the planner decided as it did.
 enum class Reason : std::uint8_t {
   kFlying,           ///< towards the goal
+  kGoingRound,       ///< round what is in the way, at first not towards the goal
   kAtGoal,           ///< stops at the goal
   kSlowing,          ///< faster than the goal's top speed
   kTurning,          ///< stands, and turns towards a goal that is out of view
@@ -28,7 +29,7 @@ enum class Reason : std::uint8_t {
   kStateOtherTime,   ///< too old, or ahead of the time planned for
   kStateOtherEpoch,  ///< of another world than the snapshot
 };
-inline constexpr std::size_t kReasonCount = 14;
+inline constexpr std::size_t kReasonCount = 15;
 
 /// In a pilot's words.
 [[nodiscard]] std::string_view toString(Reason reason);

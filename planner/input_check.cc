@@ -17,12 +17,14 @@ bool isWithin(const Vec3& value, double limit) { return (value.array().abs() <= 
 
 }  // namespace
 
+bool isPlausible(const VehicleState& state) {
+  return checkPose(state.T_W_B) == PoseVerdict::kAccepted && isWithin(state.T_W_B.translation_m, kFarthest_m) &&
+         isWithin(state.velocity_W_m_s, kFastest_m_s) && isWithin(state.acceleration_W_m_s2, kHardest_m_s2);
+}
+
 std::optional<Reason> stateFault(const VehicleState& state, const ChainSnapshot& snapshot, Time now,
                                  Duration max_state_age) {
-  const bool valid = checkPose(state.T_W_B) == PoseVerdict::kAccepted &&
-                     isWithin(state.T_W_B.translation_m, kFarthest_m) && isWithin(state.velocity_W_m_s, kFastest_m_s) &&
-                     isWithin(state.acceleration_W_m_s2, kHardest_m_s2);
-  if (!valid) return Reason::kStateInvalid;
+  if (!isPlausible(state)) return Reason::kStateInvalid;
   const Duration age = now - state.stamp;
   if (age < Duration::zero() || age > max_state_age) return Reason::kStateOtherTime;
   if (!snapshot.views.empty() && snapshot.epoch != state.epoch) return Reason::kStateOtherEpoch;

@@ -9,6 +9,9 @@
 
 namespace nanomap {
 
+/// No number in it is beyond all reason, and its attitude is one.
+[[nodiscard]] bool isPlausible(const VehicleState& state);
+
 /// Why nothing can be planned from the state, if so.
 [[nodiscard]] std::optional<Reason> stateFault(const VehicleState& state, const ChainSnapshot& snapshot, Time now,
                                                Duration max_state_age);

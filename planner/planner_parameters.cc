@@ -108,6 +108,15 @@ void check(const HeadingParameters& heading) {
                  heading.sweep_rate_rad_s);
 }
 
+void check(const DetourParameters& detour) {
+  require(detour.patience > Duration::zero(), "detour.patience", toSeconds(detour.patience), "above 0 s");
+  requirePositive("detour.turn_rate_rad_s", detour.turn_rate_rad_s);
+  require(detour.lean_rad > 0.0 && detour.lean_rad < std::numbers::pi / 2.0, "detour.lean_rad", detour.lean_rad,
+          "above 0, below a right angle");
+  require(detour.give_up_after >= Duration::zero(), "detour.give_up_after", toSeconds(detour.give_up_after),
+          "0 s or more");
+}
+
 /// How far away the vehicle stands after a plan's hardest start from rest and its brake.
 double gainFromRest_m(const PlannerParameters& parameters) {
   const Vec3 acceleration_m_s2(parameters.limits.horizontal_m_s2(0.0), 0.0, 0.0);
@@ -130,6 +139,7 @@ void check(const PlannerParameters& parameters) {
   check(parameters.objective);
   check(parameters.risk);
   check(parameters.heading);
+  check(parameters.detour);
   requireNotNegative("tracking.max_position_error_m", parameters.tracking.max_position_error_m);
   requireNotNegative("tracking.max_velocity_error_m_s", parameters.tracking.max_velocity_error_m_s);
   requirePositive("brake_after_s", parameters.brake_after_s);

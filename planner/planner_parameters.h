@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/time.h"
+#include "planner/detour.h"
 #include "planner/heading.h"
 #include "planner/motion_limits.h"
 #include "planner/objective.h"
@@ -38,6 +39,7 @@ struct PlannerParameters {
   ObjectiveParameters objective;
   RiskParameters risk;
   HeadingParameters heading;
+  DetourParameters detour;
   TrackingTolerance tracking;
 
   StopCheck stop_check = StopCheck::kVerified;

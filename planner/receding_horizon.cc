@@ -1,17 +1,44 @@
 #include "planner/receding_horizon.h"
 
+#include "planner/input_check.h"
+
 namespace nanomap {
+
+namespace {
+
+/// What is steered for from `start`: a goal that cannot be is the planner's to refuse.
+std::optional<Goal> steered(Detour& detour, const VehicleState& start, const std::optional<Goal>& goal) {
+  return isPlausible(start) && !goalFault(goal, start) ? detour.steer(start, *goal) : goal;
+}
+
+void nameDetour(Decision& decision, const Detour& detour) {
+  if (decision.reason == Reason::kFlying && detour.isTurned()) decision.reason = Reason::kGoingRound;
+}
+
+}  // namespace
 
 Decision RecedingHorizon::step(const ChainSnapshot& snapshot, const VehicleState& measured,
                                const std::optional<Goal>& goal, Time now) {
-  Decision decision = planner_.plan(snapshot, startState(measured, now), goal, now);
+  const VehicleState start = startState(measured, now);
+  Decision decision = planner_.plan(snapshot, start, steered(detour_, start, goal), now);
+  detour_.note(decision.reason);
+  nameDetour(decision, detour_);
   if (isFlyable(decision)) in_force_ = decision;
   return decision;
 }
 
+void RecedingHorizon::release() {
+  in_force_.reset();
+  detour_ = Detour(planner_.parameters().detour);
+}
+
 Explanation RecedingHorizon::explain(const ChainSnapshot& snapshot, const VehicleState& measured,
                                      const std::optional<Goal>& goal, Time now) const {
-  return planner_.explain(snapshot, startState(measured, now), goal, now);
+  const VehicleState start = startState(measured, now);
+  Detour detour = detour_;
+  Explanation explanation = planner_.explain(snapshot, start, steered(detour, start, goal), now);
+  nameDetour(explanation.decision, detour);
+  return explanation;
 }
 
 VehicleState RecedingHorizon::startState(const VehicleState& measured, Time now) const {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/decision.h"
+#include "planner/detour.h"
 #include "planner/explanation.h"
 #include "planner/planner.h"
 
@@ -17,11 +18,13 @@ namespace nanomap {
 /// tracking tolerances of it; the plan then starts from the motion in force at `now`. Else it starts from the state as
 /// measured: after a jump of the estimator, in a hand that carries the vehicle, over a recording of someone else's
 /// flight.
+///
+/// What is steered for is the goal, or on a detour what that says (planner/detour.h).
 /// A function of what it was given, in that order. Allocates: no, except inside FLANN. Threads: one.
 class RecedingHorizon {
  public:
   /// @throws std::invalid_argument naming the parameter that is wrong
-  explicit RecedingHorizon(const PlannerParameters& parameters) : planner_(parameters) {}
+  explicit RecedingHorizon(const PlannerParameters& parameters) : planner_(parameters), detour_(parameters.detour) {}
 
   /// Plans for `now` and takes the decision into force if it may be flown.
   /// @param measured  as the estimator last said
@@ -29,7 +32,7 @@ class RecedingHorizon {
                               const std::optional<Goal>& goal, Time now);
 
   /// Nothing is in force any more: the vehicle is in someone else's hands.
-  void release() { in_force_.reset(); }
+  void release();
 
   /// What `step` would decide with the same arguments, and why. Takes nothing into force.
   [[nodiscard]] Explanation explain(const ChainSnapshot& snapshot, const VehicleState& measured,
@@ -46,6 +49,7 @@ class RecedingHorizon {
 
  private:
   Planner planner_;
+  Detour detour_;
   std::optional<Decision> in_force_;
 };
 

@@ -179,8 +179,10 @@ Section riskSection() {
            [](auto& c) -> auto& { return c.planner.risk.collision.model; }),
        booleanKey(
            "demand_certificate",
-           "Space around a place that no view has seen empty counts as an obstacle: what is hidden or lies outside the\n"
-           "view that answers cannot be hit unseen. Safer, slower, takes more time to plan; narrow passages stay closed.",
+           "Space around a place that no view has seen empty counts as an obstacle: what is hidden or lies outside "
+           "the\n"
+           "view that answers cannot be hit unseen. Safer, slower, takes more time to plan; narrow passages stay "
+           "closed.",
            [](auto& c) -> auto& { return c.planner.risk.demand_certificate; }),
        numberKey(
            "certificate_beyond_m",
@@ -242,6 +244,26 @@ Section headingSection() {
           {}};
 }
 
+Section detourSection() {
+  return {
+      "detour",
+      "The way round what is wider than the camera sees: the course turns away from the goal, to one side, and leans\n"
+      "back as the vehicle gets on.",
+      {durationKey(
+           "patience_s", "A vehicle that comes no nearer to its goal for this long looks for a way round.",
+           {0.0, 600.0, true}, [](auto& c) -> auto& { return c.planner.detour.patience; }),
+       numberKey(
+           "turn_rate_rad_s", "How fast the course turns away from the goal, and back.", {0.0, 10.0, true},
+           [](auto& c) -> auto& { return c.planner.detour.turn_rate_rad_s; }),
+       numberKey(
+           "lean_rad", "How far the course leans towards what is gone round, from where the vehicle flies.",
+           {0.0, 1.5, true}, [](auto& c) -> auto& { return c.planner.detour.lean_rad; }),
+       durationKey(
+           "give_up_after_s", "An attempt to one side that takes longer is given up; 0: no detours.", {0.0, 3600.0},
+           [](auto& c) -> auto& { return c.planner.detour.give_up_after; })},
+      {}};
+}
+
 Section trackingSection() {
   return {
       "tracking",
@@ -259,8 +281,8 @@ Section trackingSection() {
 }  // namespace
 
 std::vector<Section> plannerSections() {
-  return {planningSection(),  limitsSection(), horizonSection(), goalDirectedSection(),
-          objectiveSection(), riskSection(),   headingSection(), trackingSection()};
+  return {planningSection(), limitsSection(),  horizonSection(), goalDirectedSection(), objectiveSection(),
+          riskSection(),     headingSection(), detourSection(),  trackingSection()};
 }
 
 }  // namespace nanomap

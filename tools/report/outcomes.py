@@ -9,6 +9,7 @@ class Outcome(Enum):
     """In the order in which a reader looks for them. Those with a marker are marked on the map."""
 
     FLYING = Look("flying", "#009E73", "")
+    GOING_ROUND = Look("going round", "#8FD3BC", "")
     AT_GOAL = Look("at the goal", "#56B4E9", "")
     SLOWING = Look("slowing down", "#0072B2", "v")
     TURNING = Look("turning to the goal", "#CC79A7", "o")
@@ -24,6 +25,7 @@ class Outcome(Enum):
 # core/decision.cc, in its order.
 OUTCOMES = {
     "flying": Outcome.FLYING,
+    "going round what is in the way": Outcome.GOING_ROUND,
     "at the goal": Outcome.AT_GOAL,
     "faster than the goal's top speed: slowing down": Outcome.SLOWING,
     "the goal is out of view: turning towards it": Outcome.TURNING,

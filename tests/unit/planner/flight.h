@@ -20,10 +20,12 @@ inline CameraParameters flightCamera() {
   return camera;
 }
 
-/// Defaults, but for the window that tells sky from a hole: the angle that the default spans in 320 pixels.
+/// Defaults, but for the window that tells sky from a hole: the angle that the default spans in 320 pixels; and
+/// without detours.
 inline PlannerParameters flightParameters() {
   PlannerParameters parameters;
   parameters.risk.query.open_window_px = 10;
+  parameters.detour.give_up_after = Duration::zero();
   return parameters;
 }
 
@@ -53,6 +55,7 @@ class Flight {
       : world_(std::move(world)),
         camera_(model(std::move(camera))),
         planner_(parameters),
+        horizon_(parameters),
         chain_(chainParameters()),
         yaw_W_rad_(yaw_W_rad) {
     motion_W_.position_m = start_W_m;
@@ -61,9 +64,8 @@ class Flight {
   /// Looks, plans, and follows the plan until the next step.
   Decision step(const std::optional<Goal>& goal) {
     look();
-    const Decision decision = planner_.plan(snapshot_, state(), goal, now_);
-    if (isFlyable(decision)) in_force_ = decision;
-    if (in_force_) motion_W_ = follow(*in_force_, decision);
+    const Decision decision = horizon_.step(snapshot_, state(), goal, now_);
+    if (horizon_.inForce()) motion_W_ = follow(*horizon_.inForce(), decision);
     yaw_W_rad_ += decision.yaw_rate_rad_s * toSeconds(kPeriod);
     now_ += kPeriod;
     fastest_m_s_ = std::max(fastest_m_s_, motion_W_.velocity_m_s.norm());
@@ -129,13 +131,13 @@ class Flight {
   DrawnWorld world_;
   std::shared_ptr<const CameraModel> camera_;
   Planner planner_;
+  RecedingHorizon horizon_;
   Chain chain_;
   ChainSnapshot snapshot_;
   Motion motion_W_;
   double yaw_W_rad_;
   Time now_ = Time(std::chrono::milliseconds(999'900));
   std::uint64_t sequence_ = 0;
-  std::optional<Decision> in_force_;
   double fastest_m_s_ = 0.0;
   double least_clearance_m_ = std::numeric_limits<double>::infinity();
 };
