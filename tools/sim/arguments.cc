@@ -16,9 +16,6 @@ constexpr const char* kFault = "--fault";
 void addOptions(CLI::App& app, Arguments& arguments) {
   generate::SensedFlightOptions& options = arguments.options;
   app.option_defaults()->take_last();
-  app.add_option("--out", arguments.log,
-                 "LCM log of the flight to write, decisions included; an existing one is replaced. With --live: what "
-                 "was published and where the vehicle was; may be left out");
   app.add_option("--scene", options.scene, "What to fly through")
       ->capture_default_str()
       ->check(CLI::IsMember(std::vector<std::string>(simulation::kSceneNames.begin(), simulation::kSceneNames.end())));
@@ -40,9 +37,25 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.overrides, "section.key=value, wins over the file; may be given again")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 
+  CLI::Option* const record = app.add_option("--record", arguments.recordings,
+                                             "Folder to record the flight in, as nanomap-flight does, with the truth");
+  CLI::Option* const flights =
+      app.add_option("--flights", arguments.flights, "Fly as many, of seeds from --seed on, and print a table")
+          ->capture_default_str()
+          ->check(CLI::Range(1, 1000))
+          ->excludes(record);
+  CLI::Option* const blind =
+      app.add_flag("--blind", arguments.blind, "No obstacle weighs anything: a crash, if the scene is of use");
+
   CLI::Option* const live =
       app.add_flag("--live", arguments.live,
-                   "In real time, over LCM: an autopilot's vehicle flies, by what nanomap-flight tells it");
+                   "In real time, over LCM: an autopilot's vehicle flies, by what nanomap-flight tells it")
+          ->excludes(record)
+          ->excludes(flights)
+          ->excludes(blind);
+  app.add_option("--out", arguments.log,
+                 "LCM log to write of what was published and where the vehicle was; an existing one is replaced")
+      ->needs(live);
   app.add_option("--autopilot", arguments.autopilot_url,
                  "Where the autopilot tells where its vehicle is, as MAVSDK takes it; nanomap-flight has another one")
       ->capture_default_str()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,7 +15,9 @@ namespace nanomap::sim {
 
 /// The command line, in its own units.
 struct Arguments {
-  std::optional<std::filesystem::path> log;
+  std::optional<std::filesystem::path> recordings;
+  std::uint64_t flights = 1;
+  bool blind = false;
   std::string config;
   std::vector<std::string> overrides;
   generate::SensedFlightOptions options;
@@ -27,6 +30,7 @@ struct Arguments {
   std::vector<std::string> message_faults;
 
   bool live = false;
+  std::optional<std::filesystem::path> log;
   std::string autopilot_url = LiveFlightOptions().autopilot_url;
   std::optional<double> heading_deg;
 };

@@ -1,21 +1,23 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <numbers>
-#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "firmware_app/configuration/load.h"
 #include "firmware_app/supervision/end_signals.h"
 #include "tools/replay/plan_summary.h"
 #include "tools/sim/arguments.h"
+#include "tools/sim/blindness.h"
 #include "tools/sim/live_flight.h"
-#include "tools/sim/planned_flyer.h"
+#include "tools/sim/lockstep_flight.h"
 
 namespace nanomap::sim {
 namespace {
@@ -35,16 +37,16 @@ double rms(double square_sum, std::uint64_t count) {
   return count > 0 ? std::sqrt(square_sum / static_cast<double>(count)) : 0.0;
 }
 
-std::string summaryOf(const generate::SensedFlightOptions& options, const generate::SensedFlightSummary& sensed,
-                      const PlannedFlightSummary& planned) {
-  const double flown_s = toSeconds(planned.end - generate::SensedFlight::kStart);
+/// Time, way and speed count from the departure on.
+std::string summaryOf(const generate::SensedFlightOptions& options, const LockstepFlight& flight) {
+  const LockstepSummary& flown = flight.flown;
   Text text;
-  text.line("{}", verdictLine(options, planned, flown_s, sensed.flown_m));
-  text.line("{}", speedLine(planned, flown_s, sensed.flown_m));
-  text.line("tracking error: rms {:.3f} m, max {:.3f} m; drift at the end {:.2f} m",
-            rms(planned.tracking.square_sum_m2, planned.tracking.count), planned.tracking.worst_m,
-            sensed.final_error_m);
-  writePlans(text, planned.plans);
+  text.line("{}", verdictLine(options, flown, flight.flown_s(), flown.flown_m));
+  if (flown.departure) text.line("{}", speedLine(flown, flight.flown_s(), flown.flown_m));
+  text.line("broken off for a fault {} times; autopilot's failsafes: {}", flown.braked, flown.failsafes);
+  text.line("tracking error: rms {:.3f} m, max {:.3f} m; drift at the end {:.2f} m", flown.tracking.rms_m(),
+            flown.tracking.worst_m, flight.sensed.final_error_m);
+  writePlans(text, flown.plans);
   return text.take();
 }
 
@@ -91,20 +93,34 @@ bool runLive(const Arguments& arguments, const Configuration& configuration) {
 
 /// @return did it arrive?
 bool runInLockstep(const Arguments& arguments, const Configuration& configuration) {
-  if (!arguments.log) throw std::invalid_argument("--out LOG is missing: where to write the flight to");
   const generate::SensedFlight flight(sensedFlightOf(arguments));
-  LogWriter log(*arguments.log);
-  PlannedFlyer flyer(configuration, flight.scene(), generate::SensedFlight::kStart, {}, faultsOf(arguments), log);
-  const generate::SensedFlightSummary sensed =
-      flight.fly(configuration.lcm, generate::SensedFlight::kStart, fromSeconds(arguments.duration_s), flyer);
-  log.close();
-  fmt::print("{}", summaryOf(flight.options(), sensed, flyer.summary()));
-  return flyer.summary().outcome == Outcome::kAtGoal;
+  const LockstepFlight flown = flyInLockstep(configuration, flight, fromSeconds(arguments.duration_s),
+                                             faultsOf(arguments), arguments.recordings);
+  fmt::print("{}", summaryOf(flight.options(), flown));
+  return flown.flown.outcome == Outcome::kAtGoal;
 }
 
-bool run(const Arguments& arguments) {
+/// @return did all arrive?
+bool runSeeds(const Arguments& arguments, const Configuration& configuration) {
+  generate::SensedFlightOptions options = sensedFlightOf(arguments);
+  std::vector<LockstepFlight> flights;
+  for (std::uint64_t i = 0; i < arguments.flights; ++i, ++options.seed) {
+    flights.push_back(flyInLockstep(configuration, generate::SensedFlight(options), fromSeconds(arguments.duration_s),
+                                    faultsOf(arguments)));
+  }
+  fmt::print("{}", tableOf(options.scene, flights));
+  return std::ranges::all_of(flights,
+                             [](const LockstepFlight& flight) { return flight.flown.outcome == Outcome::kAtGoal; });
+}
+
+bool run(Arguments& arguments) {
+  if (arguments.blind) {
+    const std::vector<std::string> blind = blindToObstacles();
+    arguments.overrides.insert(arguments.overrides.begin(), blind.begin(), blind.end());
+  }
   const Configuration configuration = loadConfiguration(arguments.config, arguments.overrides);
-  return arguments.live ? runLive(arguments, configuration) : runInLockstep(arguments, configuration);
+  if (arguments.live) return runLive(arguments, configuration);
+  return arguments.flights == 1 ? runInLockstep(arguments, configuration) : runSeeds(arguments, configuration);
 }
 
 }  // namespace
@@ -112,10 +128,10 @@ bool run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Flies a simulated vehicle through a scene as the planner decides, in simulated time, and records the flight.\n"
+      "Flies a simulated vehicle through a scene in simulated time, by the stages of the flight process themselves.\n"
       "With --live, an autopilot flies its own vehicle: this renders what its depth camera would see and what its\n"
       "drifting estimator would say, sends both over LCM, and judges the flight.\n"
-      "Exit code 0: it stands at the goal; 2: it does not; 1: it could not be flown.",
+      "Exit code 0: it stands at the goal, in all flights; 2: it does not; 1: it could not be flown.",
       "nanomap-sim");
   nanomap::sim::Arguments arguments;
   nanomap::sim::addOptions(app, arguments);

@@ -15,6 +15,7 @@
 #include "firmware_app/stages/stages.h"
 #include "tests/support/camera.h"
 #include "tests/support/drawing.h"
+#include "tools/sim/in_process_autopilot.h"
 
 namespace nanomap::test {
 
@@ -22,65 +23,31 @@ namespace nanomap::test {
 enum class Broken { kDepth, kPose, kCorrection, kMavlink, kPlanner, kSink, kClock };
 enum class How { kOff, kStuck, kLate, kGarbage, kJumping, kIntermittent, kFrozen };
 
-/// An autopilot in the same process: a vehicle that does at once what it is told, and stands when it is told nothing.
-class ObedientAutopilot : public AutopilotLink {
+/// A vehicle that does at once what it is told, and stands when it is told nothing.
+class ObedientAutopilot : public sim::InProcessAutopilot {
  public:
   static constexpr Duration kStreamTimeout = std::chrono::milliseconds(500);
-
-  void keepAlive(SystemStatus told) override { status = told; }
-  SendResult send(const LocalNedTarget& target) override {
-    targets.emplace_back(now, target);
-    return SendResult::kSent;
-  }
-  SendResult send(const ObstacleDistances&) override {
-    ++obstacles;
-    return SendResult::kSent;
-  }
-  SendResult send(const OdometryMessage&) override {
-    ++odometries;
-    return SendResult::kSent;
-  }
-  SendResult sendText(Severity, std::string_view text) override {
-    texts.emplace_back(text);
-    return SendResult::kSent;
-  }
-  [[nodiscard]] AutopilotState autopilot() const override { return state; }
-  std::optional<AutopilotPose> takePose() override {
-    if (poses.empty()) return std::nullopt;
-    const AutopilotPose pose = poses.front();
-    poses.pop_front();
-    return pose;
-  }
 
   /// Moves the vehicle over the time since the last call.
   void move(Time until) {
     const double elapsed_s = toSeconds(until - now);
     now = until;
-    const bool obeys = state.external_control && !targets.empty() && now - targets.back().first < kStreamTimeout;
+    const bool obeys = state.external_control && target && now - target->at < kStreamTimeout;
     if (!obeys) {
       velocity_NED_m_s.setZero();
       return;
     }
-    const LocalNedTarget& target = targets.back().second;
-    velocity_NED_m_s = target.velocity_NED_m_s.cast<double>();
-    const bool with_position = (target.type_mask & 0b111) == 0;
-    position_NED_m = with_position ? Vec3(target.position_NED_m.cast<double>() - offset_NED_m)
-                                   : Vec3(position_NED_m + velocity_NED_m_s * elapsed_s);
-    heading_rad = static_cast<double>(target.yaw_NED_rad);
+    const LocalNedTarget& told = target->target;
+    velocity_NED_m_s = told.velocity_NED_m_s.cast<double>();
+    position_NED_m = target->withPosition() ? Vec3(told.position_NED_m.cast<double>() - offset_NED_m)
+                                            : Vec3(position_NED_m + velocity_NED_m_s * elapsed_s);
+    heading_rad = static_cast<double>(told.yaw_NED_rad);
   }
 
-  Time now{};
-  AutopilotState state;
   Vec3 position_NED_m = Vec3::Zero();
   Vec3 offset_NED_m = Vec3::Zero();  ///< that its own estimate is off by
   Vec3 velocity_NED_m_s = Vec3::Zero();
   double heading_rad = 0.0;
-  std::deque<AutopilotPose> poses;
-  std::vector<std::pair<Time, LocalNedTarget>> targets;
-  std::vector<std::string> texts;
-  std::size_t obstacles = 0;
-  std::size_t odometries = 0;
-  SystemStatus status = SystemStatus::kBoot;
 };
 
 /// The whole way from messages to an autopilot, on one thread and a clock of its own: a vehicle in open space towards a
@@ -119,10 +86,7 @@ class FlightOnAFakeClock {
   /// Sets the host's time of day forward, or back. Streams are stamped by it with ClockDomain::kRealtime.
   void setTimeOfDay(Duration forward) { time_of_day_ahead_ += forward; }
 
-  void order() {
-    autopilot.state.external_control = true;
-    ++autopilot.state.external_control_entries;
-  }
+  void order() { autopilot.switchToExternalControl(); }
 
   void run(Duration duration) {
     for (const Time end = now_ + duration; now_ < end;) tick();

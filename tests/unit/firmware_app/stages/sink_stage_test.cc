@@ -56,7 +56,7 @@ TEST(SinkStage, RecordingIsNeverFlownWithALiveAutopilot) {
   flight.order();
   flight.run(2s);
   EXPECT_EQ(flight.state(), State::kWaiting);
-  EXPECT_TRUE(flight.autopilot.targets.empty());
+  EXPECT_EQ(flight.autopilot.targets, 0U);
   EXPECT_EQ(flight.autopilot.odometries, 0U);
   EXPECT_EQ(flight.autopilot.obstacles, 0U);
   EXPECT_TRUE(wasTold(flight.autopilot, "a log is never flown"));
