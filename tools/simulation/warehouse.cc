@@ -72,7 +72,8 @@ Scene makeWarehouse(std::uint64_t seed) {
 
   double side = chance(random, 0.5) ? 1.0 : -1.0;
   for (double x_m = 9.0; x_m < kAisleLength_m - 6.0; x_m += uniform(random, 6.0, 11.0)) {
-    const double into_aisle_m = uniform(random, 0.6, 1.6);
+    // Some leave no straight way through, all leave one of 2 m beside them.
+    const double into_aisle_m = uniform(random, 1.0, 2.0);
     const double height_m = uniform(random, 1.9, 2.6);
     solids.emplace_back(boxBetween({x_m, side * kAisleHalfWidth_m, 0.0},
                                    {x_m + 1.2, side * (kAisleHalfWidth_m - into_aisle_m), height_m}));
