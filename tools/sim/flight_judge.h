@@ -19,6 +19,9 @@ enum class Outcome : std::uint8_t {
 
 [[nodiscard]] std::string_view toString(Outcome outcome);
 
+/// A vehicle stands this far from where its plan ends, or less.
+inline constexpr double kTrackingAllowance_m = 0.3;
+
 struct FlightVerdict {
   Outcome outcome = Outcome::kUnderWay;
   Time end{};                     ///< of the outcome, or the last moment seen

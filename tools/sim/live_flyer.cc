@@ -13,9 +13,6 @@ constexpr Duration kSignOfLife = std::chrono::milliseconds(50);
 /// A motion that is continued for longer has little to do with the vehicle's.
 constexpr Duration kOldestTruth = std::chrono::seconds(1);
 
-/// How far from its plan's standstill a vehicle may stand.
-constexpr double kTrackingAllowance_m = 0.3;
-
 /// A vehicle that stands at the goal is watched for this long: it has to stay clear of everything, and the flight
 /// process says that it has arrived only when that has been so for a second.
 constexpr Duration kStays = std::chrono::seconds(3);

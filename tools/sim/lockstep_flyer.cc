@@ -29,7 +29,9 @@ double TrackingError::rms_m() const { return count > 0 ? std::sqrt(square_sum_m2
 LockstepFlyer::LockstepFlyer(const Configuration& configuration, const simulation::Scene& scene, Time start,
                              const simulation::MulticopterParameters& vehicle, const SensorFaultPlanParameters& faults,
                              const std::optional<std::filesystem::path>& recordings)
-    : judge_(scene, vehicle.radius_m),
+    : goal_W_m_(scene.mission().goal_W),
+      arrival_tolerance_m_(configuration.planner.objective.goal_tolerance_m + kTrackingAllowance_m),
+      judge_(scene, vehicle.radius_m),
       faults_(faults),
       autopilot_(vehicle, scene.mission().start_W, yawTowardsGoal(scene.mission()), start),
       stages_(configuration, kRealtimeAhead, autopilot_),
@@ -51,8 +53,8 @@ simulation::VehicleState LockstepFlyer::at(Time stamp) {
 }
 
 void LockstepFlyer::onEstimate(const simulation::VioEstimate& estimate) {
-  const bool arrived = state_ == State::kFlying && newest_.decision.reason == Reason::kAtGoal;
-  judge_.see(estimate.pose.stamp, autopilot_.vehicle(), arrived);
+  const double to_goal_m = (estimate.pose.T_W_B.translation_m - goal_W_m_).norm();
+  judge_.see(estimate.pose.stamp, autopilot_.vehicle(), to_goal_m <= arrival_tolerance_m_);
   static_cast<FlightVerdict&>(summary_) = judge_.verdict();
   const bool followed = state_ == State::kFlying && in_force_ && in_force_->consumed.epoch == estimate.pose.epoch;
   if (!followed) return;
@@ -86,9 +88,10 @@ void LockstepFlyer::think(Time now) {
   stages_.index.run();
   stages_.chain.run(now);
   if (!stages_.plan.run(now)) return;
-  stages_.hand_overs.newest_decision.take([this](const MadeDecision& made) { newest_ = made; });
-  if (isFlyable(newest_.decision)) in_force_ = newest_.decision;
-  if (newest_.flown) summary_.plans.record(newest_.decision);
+  stages_.hand_overs.newest_decision.take([this](const MadeDecision& made) {
+    if (isFlyable(made.decision)) in_force_ = made.decision;
+    if (made.flown) summary_.plans.record(made.decision);
+  });
 }
 
 void LockstepFlyer::act(Time now) {

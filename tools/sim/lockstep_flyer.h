@@ -62,6 +62,8 @@ class LockstepFlyer : public generate::Flyer {
   void think(Time now);
   void act(Time now);
 
+  Vec3 goal_W_m_;
+  double arrival_tolerance_m_;
   FlightJudge judge_;  ///< by the vehicle's own radius, whatever the configuration believes
   SensorFaultPlan faults_;
   LockstepAutopilot autopilot_;
@@ -70,7 +72,6 @@ class LockstepFlyer : public generate::Flyer {
   Duration setpoint_period_;
   Time next_setpoint_;
   bool handed_over_ = false;
-  MadeDecision newest_;  ///< decision
   State state_ = State::kWaiting;
   std::optional<Decision> in_force_;
   LockstepSummary summary_;

@@ -8,8 +8,8 @@ from live_flight import live_flight
 
 
 class SceneFlight(FlightTest):
-    def assert_arrives(self, scene: str, top_speed_m_s: float) -> None:
-        with live_flight(self.options(scene=scene, duration_s=60.0)) as flight:
+    def assert_arrives(self, scene: str, top_speed_m_s: float, duration_s: float = 60.0) -> None:
+        with live_flight(self.options(scene=scene, duration_s=duration_s)) as flight:
             flight.hand_over()
             code = flight.wait()
             what_happened = self.what_happened(flight)
@@ -28,17 +28,8 @@ class SceneFlight(FlightTest):
         self.assert_arrives("warehouse", 6.0)
 
     def test_wall_with_overhang(self):
-        """It is wider than the camera sees: no planner of local motions gets around it. It stops and looks around."""
-        with live_flight(self.options(scene="wall", duration_s=40.0)) as flight:
-            flight.hand_over()
-            flight.wait()
-            what_happened = self.what_happened(flight)
-            outcome, _, top_m_s, clearance_m = self.judged(flight)
-            self.assertEqual(outcome, "still under way", what_happened)
-            self.assertGreaterEqual(clearance_m, VEHICLE_RADIUS_M, what_happened)
-            self.assertGreater(top_m_s, 6.0, what_happened)
-            self.assertIn("NanoMap: blocked: looking around", flight.pilot.texts(), what_happened)
-            self.assertEqual(flight.pilot.modes(), ["OFFBOARD"], what_happened)
+        """It is wider than the camera sees: the way round it is a matter of memory."""
+        self.assert_arrives("wall", 6.0, duration_s=90.0)
 
 
 if __name__ == "__main__":
