@@ -27,8 +27,8 @@ struct TileRow {
   std::size_t bottom;                        ///< past the last row, at most a tile's edge below the top
   std::span<const std::uint16_t> no_return;  ///< values
   std::uint16_t* least;                      ///< one a tile, as the others
-  std::uint16_t* greatest;
   std::uint16_t* cover;
+  std::uint16_t* column_cover;  ///< kEdge_px a tile
   DepthTiles::Gaps* gaps;
 };
 
@@ -85,11 +85,17 @@ HWY_INLINE void boundTiles(const TileRow& row, const std::uint16_t* pixels, std:
   }
   const auto lower = [](RawVec a, RawVec b) { return hn::Min(a, b); };
   const auto higher = [](RawVec a, RawVec b) { return hn::Max(a, b); };
-  greatest = overParts(greatest, higher);
-  const auto without_gap = hn::Eq(overParts(gaps, higher), hn::Zero(d));
+  const auto without_gap = hn::Eq(gaps, hn::Zero(d));
+  const RawVec cover = hn::IfThenElse(without_gap, greatest, hn::Set(d, DepthTiles::kNoDepth));
   storeParts(overParts(least, lower), tiles, row.least + first_tile);
-  storeParts(greatest, tiles, row.greatest + first_tile);
-  storeParts(hn::IfThenElse(without_gap, greatest, hn::Set(d, DepthTiles::kNoDepth)), tiles, row.cover + first_tile);
+  storeParts(overParts(cover, higher), tiles, row.cover + first_tile);
+  if (tiles == kTiles) {
+    hn::StoreU(cover, d, row.column_cover + first_tile * kEdge);
+  } else {
+    alignas(64) std::array<std::uint16_t, kColumns> covers;
+    hn::Store(cover, d, covers.data());
+    std::copy_n(covers.begin(), tiles * kEdge, row.column_cover + first_tile * kEdge);
+  }
 
   const hn::Rebind<std::uint8_t, RawTag> d8;
   alignas(64) std::array<DepthTiles::Gaps, kTiles> columns;
@@ -134,8 +140,8 @@ DepthTiles::DepthTiles(const CameraModel& camera)
     : columns_(tilesAlong(camera.width())),
       rows_(tilesAlong(camera.height())),
       least_(tileAt(0, rows_), kNoDepth),
-      greatest_(tileAt(0, rows_), 0),
       cover_(tileAt(0, rows_), kNoDepth),
+      column_cover_(tileAt(0, rows_) * kEdge_px, kNoDepth),
       gaps_(tileAt(0, rows_)) {
   Gaps everywhere;
   everywhere.fill(0xFF);
@@ -153,8 +159,8 @@ void DepthTiles::assign(const DepthImage& image, const CameraModel& camera) {
       .bottom = static_cast<std::size_t>(std::min(top + kEdge_px, image.height_px)),
       .no_return = camera.parameters().no_return_values,
       .least = &least_[first],
-      .greatest = &greatest_[first],
       .cover = &cover_[first],
+      .column_cover = &column_cover_[first * kEdge_px],
       .gaps = &gaps_[first]});
   }
 }

@@ -10,9 +10,9 @@
 
 namespace nanomap {
 
-/// The least and the greatest raw depth of each square tile of a depth image, and which of its pixels carry none:
-/// enough to tell, for most tiles, that nothing in them is nearer or farther than a limit. Threads: any number of
-/// readers; assigning needs the tiles alone.
+/// The least and the greatest raw depth of each square tile of a depth image, the greatest of each of its columns, and
+/// which of its pixels carry none: enough to tell, for most pixels, that nothing there is nearer or farther than a
+/// limit. Threads: any number of readers; assigning needs the tiles alone.
 class DepthTiles {
  public:
   static constexpr int kEdge_px = 8;  ///< tiles at the right and bottom border may be cut
@@ -32,12 +32,17 @@ class DepthTiles {
 
   /// Row-major, `columns() * rows()` values. A tile without any depth holds kNoDepth.
   [[nodiscard]] const std::vector<std::uint16_t>& least() const { return least_; }
-  /// The same. A tile without any depth holds 0.
-  [[nodiscard]] const std::vector<std::uint16_t>& greatest() const { return greatest_; }
 
-  /// The same, but kNoDepth for a tile with a pixel that carries no depth: what is not nearer than this is occluded,
-  /// whichever pixel of the tile it falls on.
+  /// The greatest raw depth in the same order, kNoDepth for a tile with a pixel that carries no depth: what is not
+  /// nearer than this is occluded, whichever pixel of the tile it falls on.
   [[nodiscard]] const std::vector<std::uint16_t>& cover() const { return cover_; }
+
+  /// The same of each column of each tile, kEdge_px values a tile, left to right: what is upright (trunks, poles,
+  /// frames of doors) parts near from far along columns.
+  [[nodiscard]] const std::vector<std::uint16_t>& columnCover() const { return column_cover_; }
+
+  /// Is there a pixel in the tile that carries no depth?
+  [[nodiscard]] bool hasGap(std::size_t tile) const { return cover_[tile] == kNoDepth; }
 
   /// The pixels of a tile that carry no depth: a byte for each column, a bit for each row.
   using Gaps = std::array<std::uint8_t, kEdge_px>;
@@ -52,8 +57,8 @@ class DepthTiles {
   int columns_;
   int rows_;
   std::vector<std::uint16_t> least_;
-  std::vector<std::uint16_t> greatest_;
   std::vector<std::uint16_t> cover_;
+  std::vector<std::uint16_t> column_cover_;
   std::vector<Gaps> gaps_;
 };
 

@@ -116,7 +116,7 @@ class BallSearch {
   /// No ray of the tile is unseen nearer to the camera.
   [[nodiscard]] float leastBegin_m(std::size_t tile) const {
     const float least_m = camera_.depth(tiles_.least()[tile]);
-    return tiles_.cover()[tile] == DepthTiles::kNoDepth ? std::min(least_m, near_m_) : least_m;
+    return tiles_.hasGap(tile) ? std::min(least_m, near_m_) : least_m;
   }
 
   void searchTile(int column, int row) {
@@ -128,7 +128,7 @@ class BallSearch {
                     camera_.rayTiles().y(in_image),
                     s_.view.image().tiles()[in_image],
                     {u, std::min(u + kEdge_px, camera_.width()) - 1, v, std::min(v + kEdge_px, camera_.height()) - 1},
-                    tiles_.cover()[in_tiles] == DepthTiles::kNoDepth ? placesOf(tiles_.gaps()[in_tiles]) : 0};
+                    tiles_.hasGap(in_tiles) ? placesOf(tiles_.gaps()[in_tiles]) : 0};
     if (tile.gaps != ~std::uint64_t{0}) searchReturns(tile);
     if (tile.gaps != 0 && !isEnough()) searchGaps(tile);
   }

@@ -20,8 +20,7 @@ constexpr double kLargest = 1e6;
 constexpr double kRoundingUp = 1.0 + 0x1p-20;
 
 /// Read in the lanes without a view.
-constexpr std::uint16_t kNoGreatest = 0;
-constexpr DepthTiles::Gaps kNoGaps{};
+constexpr std::uint16_t kNoCover = 0;
 
 bool isWithin(const auto& matrix, double limit) { return (matrix.array().abs() <= limit).all(); }
 
@@ -66,10 +65,9 @@ void setLane(ViewLanes& lanes, std::size_t lane, const SnapshotView& view) {
   lanes.last_column[lane] = static_cast<float>(camera.width() - 1);
   lanes.last_row[lane] = static_cast<float>(camera.height() - 1);
   lanes.counts_per_m[lane] = rounded(1.0 / (static_cast<double>(camera.depth(1)) * kRoundingUp));
-  lanes.tile_columns[lane] = view.view->tiles().columns();
+  lanes.tiled_width_px[lane] = view.view->tiles().columns() * DepthTiles::kEdge_px;
   lanes.cover[lane] = view.view->tiles().cover().data();
-  lanes.greatest[lane] = view.view->tiles().greatest().data();
-  lanes.gaps[lane] = view.view->tiles().gaps().data();
+  lanes.column_cover[lane] = view.view->tiles().columnCover().data();
   lanes.view[lane] = view.view.get();
   if (camera.parameters().distortion.isZero()) lanes.tiled |= 1U << lane;
 }
@@ -77,9 +75,8 @@ void setLane(ViewLanes& lanes, std::size_t lane, const SnapshotView& view) {
 ViewLanes withoutViews() {
   ViewLanes lanes{};
   lanes.near_m.fill(std::numeric_limits<float>::infinity());
-  lanes.cover.fill(&kNoGreatest);
-  lanes.greatest.fill(&kNoGreatest);
-  lanes.gaps.fill(&kNoGaps);
+  lanes.cover.fill(&kNoCover);
+  lanes.column_cover.fill(&kNoCover);
   return lanes;
 }
 
@@ -138,12 +135,9 @@ std::optional<std::uint32_t> ViewFilter::Walk::next() {
 
 /// Is the mean certainly not nearer than the depth that its pixel carries?
 bool ViewFilter::Walk::isOccluded(const ViewLanes& lanes, std::uint32_t lane) const {
+  if ((probed_.in_cell >> lane & 1U) == 0) return false;
   const View& view = *lanes.view[lane];
-  const CameraModel::Pixel cell{probed_.column[lane], probed_.row[lane]};
-  if ((probed_.with_depth >> lane & 1U) != 0) return probed_.raw[lane] >= view.rawAt(cell.u, cell.v);
-  const bool distorted = (lanes.tiled >> lane & 1U) == 0;
-  if (!distorted || (probed_.in_cell >> lane & 1U) == 0) return false;
-  const CameraModel::Pixel pixel = view.camera().pixelOfCell(cell);
+  const CameraModel::Pixel pixel = view.camera().pixelOfCell({probed_.column[lane], probed_.row[lane]});
   const std::uint16_t raw = view.rawAt(pixel.u, pixel.v);
   return probed_.raw[lane] >= raw && view.camera().classify(raw) != DepthReading::kNone;
 }

@@ -23,11 +23,10 @@ struct alignas(64) ViewLanes {
   Floats near_m, far_m;
   Floats cells_per_tan_x, cells_per_tan_y;  ///< cells as of CameraModel::pixelOfCell()
   Floats last_column, last_row;
-  Floats counts_per_m;  ///< raw depth
-  std::array<std::int32_t, kViewLanes> tile_columns;
-  std::array<const std::uint16_t*, kViewLanes> cover;  ///< of DepthTiles, as the next two
-  std::array<const std::uint16_t*, kViewLanes> greatest;
-  std::array<const DepthTiles::Gaps*, kViewLanes> gaps;
+  Floats counts_per_m;                                  ///< raw depth
+  std::array<std::int32_t, kViewLanes> tiled_width_px;  ///< of the image's tiles, those at the border uncut
+  std::array<const std::uint16_t*, kViewLanes> cover;   ///< of DepthTiles, as the next
+  std::array<const std::uint16_t*, kViewLanes> column_cover;
   std::array<const View*, kViewLanes> view;
   std::uint32_t tiled = 0;  ///< bits of the lanes whose cells are pixels: no distortion
 };
@@ -42,12 +41,11 @@ struct PointProbe {
 
 /// Where the mean falls in the views that the filter left.
 struct ProbedLanes {
-  std::uint32_t left = 0;        ///< bits of the lanes that may answer
-  std::uint32_t in_cell = 0;     ///< bits of the lanes whose cell is certain
-  std::uint32_t with_depth = 0;  ///< bits of the lanes of which it is certain that the cell is a pixel with depth
+  std::uint32_t left = 0;     ///< bits of the lanes that may answer
+  std::uint32_t in_cell = 0;  ///< bits of the lanes whose cell is certain
   alignas(64) std::array<std::int32_t, kViewLanes> column;
   alignas(64) std::array<std::int32_t, kViewLanes> row;
-  alignas(64) std::array<std::int32_t, kViewLanes> tile;
+  alignas(64) std::array<std::int32_t, kViewLanes> tile_column;  ///< columns of tiles before that of the cell
   alignas(64) std::array<std::int32_t, kViewLanes> raw;  ///< the mean is certainly not nearer than this raw depth
 };
 

@@ -104,36 +104,28 @@ class VectorProbe {
     hn::Store(hn::ConvertTo(di, certain_raw), di, out.raw.data() + first_);
 
     const IntVec tile_row = hn::ShiftRight<kTileShift>(row);
-    const IntVec tile_columns = hn::Load(di, views_.tile_columns.data() + first_);
-    hn::Store(hn::Add(hn::Mul(tile_row, tile_columns), hn::ShiftRight<kTileShift>(column)), di,
-              out.tile.data() + first_);
+    const IntVec tiled_width_px = hn::Load(di, views_.tiled_width_px.data() + first_);
+    hn::Store(hn::Add(hn::Mul(tile_row, tiled_width_px), column), di, out.tile_column.data() + first_);
   }
 
-  /// Bits of the lanes where the pixel certainly carries a depth and the mean is not nearer than anything in its tile.
+  /// Bits of the lanes where every pixel of the cell's tile, or of its column there, carries a depth, and the mean is
+  /// not nearer than any of them.
   HWY_INLINE std::uint32_t behindTiles(std::uint32_t inside, ProbedLanes& out) const {
-    // Most tiles have no gaps: one value of each decides.
-    std::uint32_t covered = 0;
+    // Tiles first: all those of a history stay in a cache that their columns have no room in.
+    std::uint32_t behind = 0;
     for (std::size_t i = 0; i < laneCount(); ++i) {
       const std::size_t lane = first_ + i;
-      covered |= static_cast<std::uint32_t>(out.raw[lane] >= views_.cover[lane][out.tile[lane]]) << i;
+      const std::uint16_t cover = views_.cover[lane][out.tile_column[lane] >> kTileShift];
+      behind |= static_cast<std::uint32_t>(out.raw[lane] >= cover) << i;
     }
     const std::uint32_t certain = (out.in_cell & views_.tiled) >> first_ & inside;
-    std::uint32_t behind = certain & covered;
-    for (std::uint32_t rest = certain & ~covered; rest != 0; rest &= rest - 1) {
+    behind &= certain;
+    for (std::uint32_t rest = certain & ~behind; rest != 0; rest &= rest - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
       const std::size_t lane = first_ + i;
-      if (isGap(lane, out)) continue;
-      out.with_depth |= 1U << lane;
-      behind |= static_cast<std::uint32_t>(out.raw[lane] >= views_.greatest[lane][out.tile[lane]]) << i;
+      behind |= static_cast<std::uint32_t>(out.raw[lane] >= views_.column_cover[lane][out.tile_column[lane]]) << i;
     }
     return behind;
-  }
-
-  HWY_INLINE bool isGap(std::size_t lane, const ProbedLanes& out) const {
-    constexpr std::uint32_t kInTile = DepthTiles::kEdge_px - 1;
-    const DepthTiles::Gaps& gaps = views_.gaps[lane][out.tile[lane]];
-    const std::uint32_t column_gaps = gaps[static_cast<std::uint32_t>(out.column[lane]) & kInTile];
-    return (column_gaps >> (static_cast<std::uint32_t>(out.row[lane]) & kInTile) & 1U) != 0;
   }
 
   HWY_INLINE FloatVec load(const ViewLanes::Floats& lanes) const { return hn::Load(Float(), lanes.data() + first_); }
@@ -203,7 +195,6 @@ std::size_t scan(std::span<const ViewLanes> lanes, const PointProbe& probe, Prob
   for (std::size_t block = 0; block < lanes.size(); ++block) {
     out.left = 0;
     out.in_cell = 0;
-    out.with_depth = 0;
     for (std::size_t first = 0; first < kViewLanes; first += VectorProbe::laneCount()) {
       VectorProbe(lanes[block], first, probe).run(out);
     }

@@ -12,7 +12,7 @@ bool areAlike(const View& a, const View& b) {
 }
 
 bool showsAnything(const View& view) {
-  return std::ranges::any_of(view.tiles().greatest(), [](std::uint16_t greatest) { return greatest > 0; });
+  return std::ranges::any_of(view.tiles().least(), [](std::uint16_t least) { return least != DepthTiles::kNoDepth; });
 }
 
 }  // namespace

@@ -24,26 +24,29 @@ void expectBoundsOf(const DepthImage& image, const CameraModel& camera) {
   ASSERT_EQ(tiles.columns(), (image.width_px + kEdge - 1) / kEdge);
   ASSERT_EQ(tiles.rows(), (image.height_px + kEdge - 1) / kEdge);
   ASSERT_EQ(tiles.least().size(), tiles.tileAt(0, tiles.rows()));
-  ASSERT_EQ(tiles.greatest().size(), tiles.tileAt(0, tiles.rows()));
+  ASSERT_EQ(tiles.cover().size(), tiles.tileAt(0, tiles.rows()));
+  ASSERT_EQ(tiles.columnCover().size(), tiles.tileAt(0, tiles.rows()) * kEdge);
   for (int row = 0; row < tiles.rows(); ++row) {
     for (int column = 0; column < tiles.columns(); ++column) {
+      const std::size_t tile = tiles.tileAt(column, row);
       std::uint16_t least = DepthTiles::kNoDepth;
-      std::uint16_t greatest = 0;
-      bool any_none = false;
-      for (int v = row * kEdge; v < std::min((row + 1) * kEdge, image.height_px); ++v) {
-        for (int u = column * kEdge; u < std::min((column + 1) * kEdge, image.width_px); ++u) {
+      std::uint16_t cover = 0;
+      for (int u = column * kEdge; u < std::min((column + 1) * kEdge, image.width_px); ++u) {
+        const auto in_tile = static_cast<std::size_t>(u % kEdge);
+        std::uint16_t column_cover = 0;
+        for (int v = row * kEdge; v < std::min((row + 1) * kEdge, image.height_px); ++v) {
           const std::uint16_t raw = image.pixels[static_cast<std::size_t>(v * image.width_px + u)];
           const bool none = camera.classify(raw) == DepthReading::kNone;
-          any_none = any_none || none;
           least = std::min(least, none ? DepthTiles::kNoDepth : raw);
-          greatest = std::max(greatest, none ? std::uint16_t{0} : raw);
-          const std::uint8_t gaps = tiles.gaps()[tiles.tileAt(column, row)][static_cast<std::size_t>(u % kEdge)];
-          ASSERT_EQ((gaps >> (v % kEdge) & 1) != 0, none) << u << ' ' << v;
+          column_cover = std::max(column_cover, none ? DepthTiles::kNoDepth : raw);
+          ASSERT_EQ((tiles.gaps()[tile][in_tile] >> (v % kEdge) & 1) != 0, none) << u << ' ' << v;
         }
+        ASSERT_EQ(tiles.columnCover()[tile * kEdge + in_tile], column_cover) << u << ' ' << row;
+        cover = std::max(cover, column_cover);
       }
-      ASSERT_EQ(tiles.least()[tiles.tileAt(column, row)], least) << column << ' ' << row;
-      ASSERT_EQ(tiles.greatest()[tiles.tileAt(column, row)], greatest) << column << ' ' << row;
-      ASSERT_EQ(tiles.cover()[tiles.tileAt(column, row)], any_none ? DepthTiles::kNoDepth : greatest);
+      ASSERT_EQ(tiles.least()[tile], least) << column << ' ' << row;
+      ASSERT_EQ(tiles.cover()[tile], cover) << column << ' ' << row;
+      ASSERT_EQ(tiles.hasGap(tile), cover == DepthTiles::kNoDepth);
     }
   }
 }
