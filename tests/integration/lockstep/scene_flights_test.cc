@@ -20,8 +20,7 @@ struct Size {
 constexpr Size kPapers{320, 240};
 constexpr Size kSmall{160, 120};  ///< a quarter of the time
 
-/// NANOMAP_FEW_SEEDS: as many as the build has the time for.
-constexpr int kFew = NANOMAP_FEW_SEEDS;
+constexpr int kFew = 2;
 constexpr int kTen = 10;
 
 constexpr double kVehicleRadius_m = 0.4;
