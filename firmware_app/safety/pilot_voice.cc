@@ -30,7 +30,8 @@ PilotText textOf(const SafetyVerdict& verdict) {
     case State::kLost:
       break;
   }
-  return {Severity::kCritical, "NanoMap has let go: take over. Without: " + verdict.faults.words()};
+  const std::string reason = verdict.faults.any() ? ". Without: " + verdict.faults.words() : "";
+  return {Severity::kCritical, "NanoMap has let go: take over" + reason};
 }
 
 }  // namespace
@@ -41,7 +42,8 @@ std::optional<PilotText> PilotVoice::step(Time now, const SafetyVerdict& verdict
 }
 
 std::optional<PilotText> PilotVoice::ofState(Time now, const SafetyVerdict& verdict) {
-  const bool settling = !verdict.faults.any() && verdict.state != State::kReady && verdict.state != State::kFlying;
+  const bool may_pass = verdict.state == State::kWaiting || verdict.state == State::kBraking;
+  const bool settling = may_pass && !verdict.faults.any();
   if (settling) return std::nullopt;  // the next state will be said
   if (told_) {
     const bool same_state = told_->state == verdict.state;

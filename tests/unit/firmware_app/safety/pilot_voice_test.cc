@@ -61,6 +61,15 @@ TEST(PilotVoice, SettlingIsNotSaid) {
   EXPECT_FALSE(voice.step(atMs(20), verdict(State::kBraking), Reason::kFlying));
 }
 
+TEST(PilotVoice, LettingGoIsSaidAtAMomentWithoutAFaultToo) {
+  PilotVoice voice;
+  EXPECT_TRUE(voice.step(atMs(0), verdict(State::kBraking, {Fault::kDepth}), Reason::kFlying));
+  const auto lost = voice.step(atMs(2000), verdict(State::kLost), Reason::kFlying);
+  ASSERT_TRUE(lost);
+  EXPECT_EQ(lost->text, "NanoMap has let go: take over");
+  EXPECT_EQ(lost->severity, Severity::kCritical);
+}
+
 TEST(PilotVoice, WhyItHoversIsSaidOnceItHasLasted) {
   PilotVoice voice;
   EXPECT_TRUE(voice.step(atMs(0), verdict(State::kFlying), Reason::kFlying));
