@@ -120,7 +120,8 @@ TEST_P(AutopilotSetting, ThatIsUnsafeIsNamed) {
 INSTANTIATE_TEST_SUITE_P(Px4, AutopilotSetting,
                          ::testing::Values(Setting{"COM_OBL_RC_ACT", "0", {}}, Setting{"COM_OF_LOSS_T", "10", {}},
                                            Setting{"COM_OF_LOSS_T", "0.1", {}},
-                                           Setting{"EKF2_EV_CTRL", "0", {"mavlink.send_odometry=true"}}));
+                                           Setting{"EKF2_EV_CTRL", "0", {"mavlink.send_odometry=true"}}),
+                         [](const auto& setting) { return setting.param.name + "_" + std::to_string(setting.index); });
 
 TEST_F(LiveMistakeTest, ArduPilotTellsItsOwnParameters) {
   const Findings healthy = diagnose(gather({"--rules", "ardupilot", "--loss", "1"}));
