@@ -17,7 +17,8 @@ void move(Time& stamp, Duration shift) {
 
 }  // namespace
 
-StampClock::StampClock(ClockDomain domain, Duration realtime_ahead) : domain_(domain) {
+StampClock::StampClock(ClockDomain domain, Duration max_lead, Duration realtime_ahead)
+    : domain_(domain), max_lead_(max_lead) {
   if (domain == ClockDomain::kMonotonic) shift_ = Duration::zero();
   if (domain == ClockDomain::kRealtime) shift_ = -realtime_ahead;
 }
@@ -49,7 +50,7 @@ std::optional<Duration> StampClock::shift(InputKind kind, Time stamp, Time arriv
 
 bool StampClock::isFromBefore(const Step& step, Time stamp, Time arrival) const {
   const Time if_after = stamp + *shift_;
-  return stamp + step.shift_before <= step.latest && (if_after < step.earliest || if_after > arrival + kMaxLead);
+  return stamp + step.shift_before <= step.latest && (if_after < step.earliest || if_after > arrival + max_lead_);
 }
 
 std::optional<Time> stampOf(const Input& input) {

@@ -25,11 +25,10 @@ class StampClock {
   static constexpr Duration kLogListening = std::chrono::milliseconds(500);
   /// Both clocks are disciplined alike: a larger change of their difference is no error of measuring, but a step.
   static constexpr Duration kSmallestStep = std::chrono::milliseconds(2);
-  /// Stamps that are farther ahead of their arrival are of the future.
-  static constexpr Duration kMaxLead = std::chrono::milliseconds(50);
 
+  /// @param max_lead        stamps that are farther ahead of their arrival are of the future (SafetyParameters)
   /// @param realtime_ahead  the realtime clock minus the monotonic one, now; of use with kRealtime
-  StampClock(ClockDomain domain, Duration realtime_ahead);
+  StampClock(ClockDomain domain, Duration max_lead, Duration realtime_ahead);
 
   /// The realtime clock minus the monotonic one, measured again.
   /// @return how far the time of day was set meanwhile, if it was and counts: forward, if positive
@@ -49,6 +48,7 @@ class StampClock {
   [[nodiscard]] bool isFromBefore(const Step& step, Time stamp, Time arrival) const;
 
   ClockDomain domain_;
+  Duration max_lead_;
   std::optional<Duration> shift_;
   Time measured_{};           ///< when the time of day was measured last
   std::optional<Step> step_;  ///< of the time of day, the last one

@@ -32,7 +32,8 @@ ViewBuilder viewBuilder(const Configuration& configuration) {
 
 Stages::Stages(const Configuration& configuration, Duration realtime_ahead, AutopilotLink& link)
     : hand_overs(configuration.chain.history_views),
-      ingest(configuration.lcm, StampClock(configuration.lcm.clock, realtime_ahead),
+      ingest(configuration.lcm,
+             StampClock(configuration.lcm.clock, configuration.safety.max_stamp_lead, realtime_ahead),
              {hand_overs.inputs, hand_overs.chain_bell, hand_overs.frames, hand_overs.capture_bell, hand_overs.cameras,
               hand_overs.index_bell, hand_overs.ingest_counters}),
       index(viewBuilder(configuration), {hand_overs.cameras, hand_overs.captured, hand_overs.indexed,

@@ -172,7 +172,8 @@ class Flight {
   void ingest() {
     std::sort(arrived_.begin(), arrived_.end(), [](const Arrived& a, const Arrived& b) { return a.at < b.at; });
     MessageIntake intake(lcm());
-    StampClock clock(ClockDomain::kRealtime, -flown_.start.time_since_epoch());  // messages count from 0
+    StampClock clock(ClockDomain::kRealtime, SafetyParameters().max_stamp_lead,
+                     -flown_.start.time_since_epoch());  // messages count from 0
     Time last{};
     for (Arrived& each : arrived_) {
       each.at = last = std::max(each.at, last + std::chrono::microseconds(1));

@@ -7,16 +7,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr Duration kMaxLead = 50ms;
+
 Time at(Duration since_start) { return Time(1000s + since_start); }
 Time stamped(Duration since_start) { return Time(since_start); }
 
 TEST(StampClock, OwnClockNeedsNoShift) {
-  StampClock clock(ClockDomain::kMonotonic, 5s);
+  StampClock clock(ClockDomain::kMonotonic, kMaxLead, 5s);
   EXPECT_EQ(clock.shift(InputKind::kDepth, stamped(3s), at(0s)), Duration::zero());
 }
 
 TEST(StampClock, TimeOfDayIsShiftedByItsLead) {
-  StampClock clock(ClockDomain::kRealtime, 5s);
+  StampClock clock(ClockDomain::kRealtime, kMaxLead, 5s);
   EXPECT_EQ(clock.shift(InputKind::kDepth, stamped(3s), at(0s)), -5s);
 }
 
@@ -33,13 +35,13 @@ class HostThatIsSet : public ::testing::TestWithParam<Duration> {
 
   static constexpr Duration kAhead = 1'000'000s;
   static constexpr Time kSet = Time(1010s);
-  StampClock clock_{ClockDomain::kRealtime, kAhead};
+  StampClock clock_{ClockDomain::kRealtime, kMaxLead, kAhead};
 };
 
 TEST_P(HostThatIsSet, KeepsAFreshStreamFresh) {
   for (Time now = at(0s); now < at(60s); now += 10ms) {
     const Duration measured = age(now - 5ms, now);
-    EXPECT_LE(measured, 5ms + StampClock::kMaxLead) << toSeconds(now - kSet);
+    EXPECT_LE(measured, 5ms + kMaxLead) << toSeconds(now - kSet);
     if (now < kSet || now > kSet + 100ms) {
       EXPECT_EQ(measured, 5ms) << toSeconds(now - kSet);
     }
@@ -61,19 +63,30 @@ TEST_P(HostThatIsSet, TellsByHowMuchAndOnce) {
 INSTANTIATE_TEST_SUITE_P(StampClock, HostThatIsSet, ::testing::Values(7ms, 300ms, 3600s, -7ms, -300ms, -3600s));
 
 TEST(StampClock, StreamWhoseOwnClockStepsIsNotHelped) {
-  StampClock clock(ClockDomain::kRealtime, 5s);
+  StampClock clock(ClockDomain::kRealtime, kMaxLead, 5s);
   EXPECT_FALSE(clock.noteRealtime(5s, at(0s)));
   EXPECT_EQ(clock.shift(InputKind::kPose, Time(1005s - 10s), at(0s)), -5s) << "stale by 10 s, and stays so";
 }
 
+TEST(StampClock, StampThatFitsBothSidesOfAStepBackIsFromBeforeIfItWouldLeadByMoreThanItMay) {
+  for (const Duration max_lead : {50ms, 500ms}) {
+    StampClock clock(ClockDomain::kRealtime, max_lead, 0s);
+    EXPECT_FALSE(clock.noteRealtime(0s, at(1s)));
+    EXPECT_EQ(clock.noteRealtime(-300ms, at(2s)), -300ms);
+    const Duration shift_if_before = 0s;
+    const Duration shift_if_after = 300ms;
+    EXPECT_EQ(clock.shift(InputKind::kPose, at(2s), at(2s)), max_lead < 300ms ? shift_if_before : shift_if_after);
+  }
+}
+
 TEST(StampClock, TimeOfDayDoesNotMatterToOwnClock) {
-  StampClock clock(ClockDomain::kMonotonic, 5s);
+  StampClock clock(ClockDomain::kMonotonic, kMaxLead, 5s);
   EXPECT_FALSE(clock.noteRealtime(5000s, at(1s)));
   EXPECT_EQ(clock.shift(InputKind::kDepth, stamped(3s), at(1s)), Duration::zero());
 }
 
 TEST(StampClock, LogIsShiftedAsItsTimeliestPoseOfTheBeginning) {
-  StampClock clock(ClockDomain::kLog, 5s);
+  StampClock clock(ClockDomain::kLog, kMaxLead, 5s);
   EXPECT_FALSE(clock.shift(InputKind::kDepth, stamped(0s), at(0s)));
   EXPECT_FALSE(clock.shift(InputKind::kPose, stamped(0ms), at(70ms)));   // late
   EXPECT_FALSE(clock.shift(InputKind::kPose, stamped(10ms), at(71ms)));  // late
@@ -87,7 +100,7 @@ TEST(StampClock, LogIsShiftedAsItsTimeliestPoseOfTheBeginning) {
 }
 
 TEST(StampClock, GoalFromBeforeALogsClockHoldsFromItsArrival) {
-  StampClock clock(ClockDomain::kLog, 0s);
+  StampClock clock(ClockDomain::kLog, kMaxLead, 0s);
   EXPECT_EQ(clock.shift(InputKind::kGoal, stamped(1s), at(3s)), at(3s) - stamped(1s));
 }
 

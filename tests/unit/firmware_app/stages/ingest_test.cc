@@ -38,7 +38,7 @@ class IngestTest : public ::testing::Test {
 
   Ingest ingestOf(ClockDomain domain, Duration realtime_ahead = {}) {
     return {LcmParameters{},
-            StampClock(domain, realtime_ahead),
+            StampClock(domain, SafetyParameters().max_stamp_lead, realtime_ahead),
             {hand_overs_.inputs, hand_overs_.chain_bell, hand_overs_.frames, hand_overs_.capture_bell,
              hand_overs_.cameras, hand_overs_.index_bell, hand_overs_.ingest_counters}};
   }
