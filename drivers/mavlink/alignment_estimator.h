@@ -18,7 +18,10 @@ struct AlignmentParameters {
   Duration window = std::chrono::seconds(10);
   Duration min_spacing = std::chrono::milliseconds(50);  ///< between the pairs of the window
   std::size_t min_pairs = 20;                            ///< fewer say nothing
-  Duration max_age = std::chrono::seconds(1);            ///< of the newest pair
+  /// Of the newest pair. An estimator that is reset in silence moves what we send unseen, so this is no longer than a
+  /// fault takes to become critical; and 25 times the interval that poses are asked for at, so that a link may lose
+  /// half of them and pause for 0.3 s.
+  Duration max_age = std::chrono::milliseconds(500);
 
   double max_position_residual_m = 0.5;    ///< median over the window: more is inconsistent
   double max_heading_residual_rad = 0.17;  ///< the same; 10 degrees, a poor compass

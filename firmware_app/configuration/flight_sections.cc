@@ -66,8 +66,10 @@ Section alignmentSection() {
                "min_pairs", "Fewer pairs of poses, one each 50 ms, say nothing.", {3, 1000},
                [](auto& c) -> auto& { return c.mavlink.alignment.min_pairs; }),
            durationKey(
-               "max_age_s", "Of the newest pair.", kDuration_s,
-               [](auto& c) -> auto& { return c.mavlink.alignment.max_age; }),
+               "max_age_s",
+               "Of the newest pair: what the autopilot says may be missing for so long. At least four intervals of\n"
+               "mavlink.pose_rate_hz.",
+               kDuration_s, [](auto& c) -> auto& { return c.mavlink.alignment.max_age; }),
            numberKey(
                "max_position_residual_m", "The two streams fit each other up to this, in the median over the window,",
                {0.0, 100.0, true}, [](auto& c) -> auto& { return c.mavlink.alignment.max_position_residual_m; }),

@@ -57,6 +57,7 @@ class Reader {
     checkChannels();
     checkRecorder();
     checkOdometry();
+    checkAlignment();
     if (!faults_.empty()) throw ConfigurationError(fmt::format("{}", fmt::join(faults_, "\n")));
     return configuration_;
   }
@@ -160,6 +161,18 @@ class Reader {
           "[mavlink]: odometry_position_sd_m and odometry_attitude_sd_rad must be above 0 both, or neither: MAVLink "
           "knows "
           "no half of a covariance");
+    }
+  }
+
+  /// A stream that is always silent by its own rate says nothing about where the autopilot is.
+  void checkAlignment() {
+    constexpr double kLeastPoses = 4.0;
+    const MavlinkParameters& mavlink = configuration_.mavlink;
+    const double poses = toSeconds(mavlink.alignment.max_age) * mavlink.link.pose_rate_hz;
+    if (poses < kLeastPoses) {
+      faults_.push_back(fmt::format("[alignment]: max_age_s = {:g} must be at least {:g} / mavlink.pose_rate_hz = {:g}",
+                                    toSeconds(mavlink.alignment.max_age), kLeastPoses,
+                                    kLeastPoses / mavlink.link.pose_rate_hz));
     }
   }
 

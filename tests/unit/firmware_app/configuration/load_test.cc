@@ -148,6 +148,12 @@ TEST(Load, OdometryHasNoHalfOfACovariance) {
   EXPECT_EQ(parseConfiguration(both, "x").mavlink.odometry.attitude_sd_rad, 0.02);
 }
 
+TEST(Load, AlignmentIsNotSilentByTheRateOfItsOwnStream) {
+  EXPECT_THAT(refusal("[mavlink]\npose_rate_hz = 5\n"), HasSubstr("max_age_s = 0.5 must be at least 4 /"));
+  EXPECT_EQ(parseConfiguration("[mavlink]\npose_rate_hz = 8\n", "x").mavlink.link.pose_rate_hz, 8.0);
+  EXPECT_EQ(refusal("[mavlink]\npose_rate_hz = 5\n[alignment]\nmax_age_s = 0.8\n"), "");
+}
+
 TEST(Load, UnknownKeySuggestsTheOneMeant) {
   EXPECT_EQ(refusal("[history]\n\nveiws = 3\n"),
             "drone.toml:3: unknown key 'history.veiws': did you mean 'history.views'?");

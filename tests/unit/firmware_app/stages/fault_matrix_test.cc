@@ -26,7 +26,8 @@ struct Case {
 
 std::string nameOf(const Case& one) {
   constexpr std::array<const char*, 7> kWhat = {"Depth", "Pose", "Correction", "Mavlink", "Planner", "Sink", "Clock"};
-  constexpr std::array<const char*, 7> kHow = {"Off", "Stuck", "Late", "Garbage", "Jumping", "Intermittent", "Frozen"};
+  constexpr std::array<const char*, 8> kHow = {"Off",     "Stuck",        "Late",   "Garbage",
+                                               "Jumping", "Intermittent", "Frozen", "Lossy"};
   return std::string(kWhat[static_cast<std::size_t>(one.what)]) + kHow[static_cast<std::size_t>(one.how)];
 }
 
@@ -109,11 +110,12 @@ const Case kCases[] = {
     {Broken::kCorrection, How::kJumping, {}, State::kFlying},
     {Broken::kCorrection, How::kIntermittent, {}, State::kFlying},
     {Broken::kMavlink, How::kOff, 40ms, State::kLost},
-    {Broken::kMavlink, How::kStuck, 1100ms, State::kLost},
-    {Broken::kMavlink, How::kLate, 1100ms, State::kLost},
-    {Broken::kMavlink, How::kGarbage, 1100ms, State::kLost},
-    {Broken::kMavlink, How::kJumping, 1100ms, State::kLost},
+    {Broken::kMavlink, How::kStuck, 600ms, State::kLost},
+    {Broken::kMavlink, How::kLate, 600ms, State::kLost},
+    {Broken::kMavlink, How::kGarbage, 600ms, State::kLost},
+    {Broken::kMavlink, How::kJumping, 600ms, State::kLost},
     {Broken::kMavlink, How::kIntermittent, 40ms, State::kLost},
+    {Broken::kMavlink, How::kLossy, {}, State::kFlying},
     {Broken::kPlanner, How::kOff, 240ms, State::kLost},
     {Broken::kPlanner, How::kStuck, 240ms, State::kLost},
     {Broken::kPlanner, How::kLate, 240ms, State::kLost},

@@ -21,7 +21,7 @@ namespace nanomap::test {
 
 /// What can break between the flight's parts, and how.
 enum class Broken { kDepth, kPose, kCorrection, kMavlink, kPlanner, kSink, kClock };
-enum class How { kOff, kStuck, kLate, kGarbage, kJumping, kIntermittent, kFrozen };
+enum class How { kOff, kStuck, kLate, kGarbage, kJumping, kIntermittent, kFrozen, kLossy };
 
 /// A vehicle that does at once what it is told, and stands when it is told nothing.
 class ObedientAutopilot : public sim::InProcessAutopilot {
@@ -131,6 +131,11 @@ class FlightOnAFakeClock {
   [[nodiscard]] bool is(Broken what, How how) const { return broken_ && broken_->what == what && broken_->how == how; }
   /// Half of the time, by turns, since the fault began.
   [[nodiscard]] bool everyOther(Duration period) const { return (now_ - broken_->since) / period % 2 == 0; }
+  /// Half of all messages, and all of them for 0.3 s of each second.
+  [[nodiscard]] bool isLost() {
+    const bool pause = (now_ - broken_->since) % std::chrono::seconds(1) < std::chrono::milliseconds(300);
+    return random_() % 2 == 0 || pause;
+  }
   [[nodiscard]] bool silent(Broken what) const {
     return is(what, How::kOff) || (is(what, How::kIntermittent) && everyOther(std::chrono::milliseconds(300)));
   }
@@ -186,7 +191,7 @@ class FlightOnAFakeClock {
   void tellAutopilotPose() {
     if (ticks_ % 2 != 0) return;
     autopilot.state.linked = !silent(Broken::kMavlink);
-    if (silent(Broken::kMavlink)) return;
+    if (silent(Broken::kMavlink) || (is(Broken::kMavlink, How::kLossy) && isLost())) return;
     AutopilotPose pose{now_, autopilot.position_NED_m + autopilot.offset_NED_m, autopilot.heading_rad};
     if (is(Broken::kMavlink, How::kStuck)) pose.stamp = broken_->since;
     if (is(Broken::kMavlink, How::kLate)) pose.stamp = now_ - std::chrono::seconds(2);
