@@ -10,7 +10,7 @@ REAL32, INT32 = mavlink.MAV_PARAM_TYPE_REAL32, mavlink.MAV_PARAM_TYPE_INT32
 USUAL = {
     "px4": {"COM_OF_LOSS_T": 1.0, "COM_OBL_RC_ACT": 5, "EKF2_EV_CTRL": 0, "EKF2_EV_DELAY": 0.0},
     "ardupilot": {"GUID_TIMEOUT": 3.0, "EK3_SRC1_POSXY": 3, "EK3_SRC1_VELXY": 3, "EK3_SRC1_POSZ": 1,
-                  "EK3_SRC1_YAW": 1, "VISO_TYPE": 0},
+                  "EK3_SRC1_VELZ": 3, "EK3_SRC1_YAW": 1, "VISO_TYPE": 0},
 }
 LOSS = {"px4": "COM_OF_LOSS_T", "ardupilot": "GUID_TIMEOUT"}
 

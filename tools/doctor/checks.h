@@ -4,6 +4,7 @@
 
 #include "tools/doctor/facts.h"
 #include "tools/doctor/finding.h"
+#include "tools/doctor/floor_evidence.h"
 #include "tools/doctor/motion_evidence.h"
 
 /// What the doctor judges. Every check is a function of its arguments: it reads no clock, file or network.
@@ -37,7 +38,11 @@ using Findings = std::vector<Finding>;
 [[nodiscard]] Findings checkDepthUnit(const Facts& facts, const MotionEvidence* evidence);
 
 /// How the camera is mounted, by how consecutive frames agree, and whether frames and poses keep the same time.
+/// @pre evidence.configured: the motion tells something
 [[nodiscard]] Findings checkMount(const Facts& facts, const MotionEvidence& evidence);
+
+/// How the camera of a vehicle that stands is mounted, by where the floor is. @pre there is a camera
+[[nodiscard]] Findings checkMountAtRest(const Facts& facts, const FloorEvidence& evidence);
 
 /// LCM's network: multicast, reach, and the kernel's buffer.
 [[nodiscard]] Findings checkNetwork(const Facts& facts);

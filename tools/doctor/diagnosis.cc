@@ -28,8 +28,11 @@ Findings checkMotion(const Facts& facts, bool ready) {
   append(findings, checkDepthUnit(facts, evidence ? &*evidence : nullptr));
   if (!evidence || anyFailure(findings)) {
     skip(findings, {"mount"}, "first mend what has failed above");
-  } else {
+  } else if (evidence->configured) {
     append(findings, checkMount(facts, *evidence));
+  } else {
+    const Duration max_pose_gap = facts.configuration.chain.max_pose_gap;
+    append(findings, checkMountAtRest(facts, floorEvidence(*facts.heard, CameraModel(*camera), max_pose_gap)));
   }
   return findings;
 }

@@ -3,6 +3,8 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "drivers/lcm/lcm_network.h"
@@ -61,6 +63,16 @@ class AutopilotSurvey {
   Time next_question_{};
 };
 
+LinkParameters linkOf(const Configuration& configuration, std::uint8_t component_id) {
+  LinkParameters link = configuration.mavlink.link;
+  if (component_id == link.component_id) {
+    throw std::invalid_argument("--component-id " + std::to_string(component_id) +
+                                " is that of the flight process (mavlink.component_id): give another one");
+  }
+  link.component_id = component_id;
+  return link;
+}
+
 /// Null if there is none, which `facts` tells then.
 std::unique_ptr<LcmNetwork> openNetwork(Facts& facts) {
   try {
@@ -73,11 +85,11 @@ std::unique_ptr<LcmNetwork> openNetwork(Facts& facts) {
 
 }  // namespace
 
-void gatherLive(Facts& facts, Duration listen) {
+void gatherLive(Facts& facts, std::uint8_t component_id, Duration listen) {
   constexpr Duration kLongestWait = std::chrono::milliseconds(20);
   const MavsdkLog quiet([](MavsdkLog::Level, std::string_view) {});
   const std::unique_ptr<LcmNetwork> network = openNetwork(facts);
-  AutopilotSurvey survey(facts.configuration.mavlink.link);
+  AutopilotSurvey survey(linkOf(facts.configuration, component_id));
 
   const Time start = processNow();
   Listener listener(facts.configuration.lcm, start, listen);

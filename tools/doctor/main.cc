@@ -34,7 +34,7 @@ Facts gatherHere(const Arguments& arguments) {
   fmt::print("listening for {:g} s to {} and {}\n", arguments.listen_s, facts.configuration.lcm.url,
              facts.configuration.mavlink.link.url);
   facts.machine = gatherMachine(facts.configuration, arguments.record);
-  gatherLive(facts, fromSeconds(arguments.listen_s));
+  gatherLive(facts, static_cast<std::uint8_t>(arguments.component_id), fromSeconds(arguments.listen_s));
   return facts;
 }
 

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <set>
+#include <stdexcept>
 
 #include "firmware_app/configuration/load.h"
 #include "firmware_app/flight/process_clock.h"
@@ -22,6 +25,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr Duration kListen = 4s;
+constexpr std::uint8_t kComponentId = 194;
 
 /// A machine that grants all that is needed: the one that runs this test may not.
 void makeMachineHealthy(Facts& facts) {
@@ -46,22 +50,28 @@ class LiveMistakeTest : public MulticastTest {
                              const std::vector<std::string>& overrides = {}, Duration ahead = {}) {
     std::vector<std::string> arguments = {"--udp", std::to_string(UdpPort().number()), "--altitude", "2"};
     arguments.insert(arguments.end(), autopilot_arguments.begin(), autopilot_arguments.end());
-    const AutopilotProcess autopilot(arguments);
+    AutopilotProcess autopilot(arguments);
     const LiveVehicle vehicle(url(), ahead);
     std::vector<std::string> all = {"lcm.url=" + url(), "mavlink.url=" + autopilot.url()};
     all.insert(all.end(), overrides.begin(), overrides.end());
     Facts facts;
     facts.configuration = loadConfiguration({}, all);
-    doctor::gatherLive(facts, kListen);
+    doctor::gatherLive(facts, kComponentId, kListen);
+    autopilot.read(0ms);
+    for (const nlohmann::json& heartbeat : autopilot.messages("HEARTBEAT"))
+      speakers_.insert(heartbeat.at("component").get<int>());
     makeMachineHealthy(facts);
     return facts;
   }
+
+  std::set<int> speakers_;  ///< components that the autopilot was spoken to by
 };
 
 TEST_F(LiveMistakeTest, HealthyVehicleIsFoundHealthyAndMachinesLimitsAreNamed) {
   Facts facts = gather();
   const Findings healthy = diagnose(facts);
   EXPECT_THAT(failed(healthy), IsEmpty()) << toText(healthy);
+  EXPECT_THAT(speakers_, ElementsAre(kComponentId)) << "the autopilot must not take it for the flight process";
   EXPECT_EQ(facts.autopilot->parameters.size(), 4U);
   for (const auto& [name, value] : facts.autopilot->parameters) EXPECT_TRUE(value) << name;
 
@@ -86,6 +96,10 @@ TEST_F(LiveMistakeTest, StampsOfTheOtherClockAreNamed) {
   const Findings monotonic = diagnose(gather({}, {"lcm.clock=realtime"}));
   EXPECT_THAT(failed(monotonic), ElementsAre("clock")) << toText(monotonic);
   EXPECT_THAT(fixOf(monotonic, "clock"), HasSubstr("lcm.clock = \"monotonic\""));
+}
+
+TEST_F(LiveMistakeTest, ItsComponentIsNotThatOfTheFlightProcess) {
+  EXPECT_THROW((void)gather({}, {"mavlink.component_id=" + std::to_string(kComponentId)}), std::invalid_argument);
 }
 
 TEST_F(LiveMistakeTest, AutopilotElsewhereIsNamed) {
@@ -126,6 +140,12 @@ INSTANTIATE_TEST_SUITE_P(Px4, AutopilotSetting,
 TEST_F(LiveMistakeTest, ArduPilotTellsItsOwnParameters) {
   const Findings healthy = diagnose(gather({"--rules", "ardupilot", "--loss", "1"}));
   EXPECT_THAT(failed(healthy), IsEmpty()) << toText(healthy);
+  const auto told = [&](const std::string& name) {
+    return std::ranges::any_of(healthy, [&](const doctor::Finding& finding) {
+      return finding.subject == name && finding.verdict != doctor::Verdict::kNotLookedAt;
+    });
+  };
+  for (const std::string& name : doctor::parametersOf(AutopilotKind::kArduPilot)) EXPECT_TRUE(told(name)) << name;
   const Findings unused = diagnose(
       gather({"--rules", "ardupilot", "--loss", "1", "--param", "VISO_TYPE=1"}, {"mavlink.send_odometry=true"}));
   EXPECT_THAT(failed(unused), ElementsAre("EK3_SRC1_POSXY")) << toText(unused);

@@ -51,8 +51,6 @@ TEST(MotionEvidence, TellsNothingOfAVehicleThatStands) {
   const CameraParameters camera = test::smallCamera();
   EXPECT_FALSE(motionEvidence(flight(camera, 0.0), camera, kGap).configured);
   EXPECT_FALSE(motionEvidence({}, camera, kGap).configured);
-  Facts facts = healthyFacts();
-  EXPECT_EQ(verdictOf(checkMount(facts, {})), Verdict::kNotLookedAt);
 }
 
 TEST(MotionEvidence, FindsTheMountThatWasMeant) {

@@ -10,6 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing::HasSubstr;
+using testing::Not;
 
 MachineFacts healthyMachine() {
   MachineFacts machine;
@@ -62,11 +63,45 @@ TEST(ParametersCheck, VisionIsUsedIfAndOnlyIfItIsSent) {
   EXPECT_EQ(judged(kPx4, "EKF2_EV_CTRL", 0), Verdict::kOk);
   EXPECT_EQ(judged(kPx4, "EKF2_EV_CTRL", 15), Verdict::kWarning);
   EXPECT_EQ(judged(kPx4, "EKF2_EV_DELAY", 200, true), Verdict::kWarning);
+}
+
+struct Source {
+  std::string name;
+  Verdict gps, none, barometer, external;  ///< what is made of it while our poses are sent
+};
+
+TEST(ParametersCheck, SourcesOfArduPilotAreOursOrDoNotContradict) {
   constexpr AutopilotKind kArduPilot = AutopilotKind::kArduPilot;
-  EXPECT_EQ(judged(kArduPilot, "EK3_SRC1_POSXY", 3, true), Verdict::kFailure);
-  EXPECT_EQ(judged(kArduPilot, "EK3_SRC1_POSXY", 6, true), Verdict::kOk);
-  EXPECT_EQ(judged(kArduPilot, "EK3_SRC1_POSXY", 6), Verdict::kWarning);
-  EXPECT_EQ(judged(kArduPilot, "VISO_TYPE", 0, true), Verdict::kFailure);
+  constexpr Verdict kOk = Verdict::kOk, kWarning = Verdict::kWarning, kFailure = Verdict::kFailure;
+  for (const Source& source :
+       {Source{"EK3_SRC1_POSXY", kFailure, kFailure, kFailure, kOk},
+        Source{"EK3_SRC1_VELXY", kWarning, kOk, kWarning, kOk}, Source{"EK3_SRC1_POSZ", kWarning, kWarning, kOk, kOk},
+        Source{"EK3_SRC1_VELZ", kWarning, kOk, kWarning, kOk}}) {
+    EXPECT_EQ(judged(kArduPilot, source.name, 3, true), source.gps) << source.name;
+    EXPECT_EQ(judged(kArduPilot, source.name, 0, true), source.none) << source.name;
+    EXPECT_EQ(judged(kArduPilot, source.name, 1, true), source.barometer) << source.name;
+    EXPECT_EQ(judged(kArduPilot, source.name, 6, true), source.external) << source.name;
+    EXPECT_EQ(judged(kArduPilot, source.name, 3), kOk) << source.name;
+    EXPECT_EQ(judged(kArduPilot, source.name, 6), kWarning) << source.name << ": nobody sends it";
+  }
+  EXPECT_EQ(judged(kArduPilot, "EK3_SRC1_YAW", 6), kWarning);
+  for (const int type : {1, 2, 3}) EXPECT_EQ(judged(kArduPilot, "VISO_TYPE", type, true), kOk) << type;
+  for (const int type : {0, 4}) EXPECT_EQ(judged(kArduPilot, "VISO_TYPE", type, true), kFailure) << type;
+  EXPECT_EQ(judged(kArduPilot, "VISO_TYPE", 0), kOk);
+}
+
+TEST(ParametersCheck, HeadingOfArduPilotIsThatOfThePositionsItFliesBy) {
+  const auto failures = [](double position, double vision_type, double yaw) {
+    Facts facts = withAutopilot(AutopilotKind::kArduPilot);
+    facts.configuration.mavlink.send_odometry = true;
+    facts.autopilot->parameters = {{"EK3_SRC1_POSXY", position}, {"VISO_TYPE", vision_type}, {"EK3_SRC1_YAW", yaw}};
+    return fixesOf(checkParameters(facts));
+  };
+  constexpr const char* kFix = "set EK3_SRC1_YAW = 6";
+  EXPECT_THAT(failures(6, 1, 1), HasSubstr(kFix)) << "compass, and poses as they come";
+  EXPECT_THAT(failures(6, 1, 6), Not(HasSubstr(kFix)));
+  EXPECT_THAT(failures(6, 3, 1), Not(HasSubstr(kFix))) << "turned to the compass";
+  EXPECT_THAT(failures(3, 1, 1), Not(HasSubstr(kFix))) << "our positions are not used: that is the mistake";
 }
 
 TEST(ParametersCheck, WhatTheAutopilotDoesNotTellIsNotLookedAt) {
