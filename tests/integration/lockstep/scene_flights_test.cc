@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "firmware_app/configuration/load.h"
+#include "tests/integration/lockstep/at_the_goal.h"
 #include "tools/generate/paper_camera.h"
 #include "tools/sim/blindness.h"
-#include "tools/sim/lockstep_flight.h"
 
 namespace nanomap::sim {
 namespace {
@@ -22,8 +22,6 @@ constexpr Size kSmall{160, 120};  ///< a quarter of the time
 
 constexpr int kFew = 2;
 constexpr int kTen = 10;
-
-constexpr double kVehicleRadius_m = 0.4;
 
 /// Whole flights through a scene, by the stages of the flight process; drift is that of an ordinary estimator.
 class SceneFlights : public testing::TestWithParam<const char*> {
@@ -43,12 +41,7 @@ class SceneFlights : public testing::TestWithParam<const char*> {
   }
 
   static void expectAllAtTheGoal(const std::vector<LockstepFlight>& flights) {
-    for (const auto& [seed, sensed, flown] : flights) {
-      EXPECT_EQ(flown.outcome, Outcome::kAtGoal) << "seed " << seed;
-      EXPECT_GE(flown.min_clearance_m, kVehicleRadius_m) << "seed " << seed;
-      EXPECT_EQ(flown.plans.flownWithoutBrake(), 0U) << "seed " << seed;
-      EXPECT_EQ(flown.failsafes, 0U) << "seed " << seed;
-    }
+    for (const LockstepFlight& flight : flights) expectAtTheGoal(flight);
   }
 
   static std::ptrdiff_t collisions(const std::vector<LockstepFlight>& flights) {
