@@ -15,15 +15,24 @@ double threadTime_s() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+namespace {
+
+double timeRun_s(const Contestant& contestant) {
+  if (contestant.prepare) contestant.prepare();
+  const double start_s = threadTime_s();
+  contestant.run();
+  return threadTime_s() - start_s;
+}
+
+}  // namespace
+
 std::vector<Standing> hold(const Contest& contest, int rounds) {
   std::vector<std::vector<double>> times_s(contest.contestants.size());
-  for (int round = -1; round < rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < contest.contestants.size(); ++i) {
       const Contestant& contestant = contest.contestants[i];
-      if (contestant.prepare) contestant.prepare();
-      const double start_s = threadTime_s();
-      contestant.run();
-      if (round >= 0) times_s[i].push_back((threadTime_s() - start_s) / contestant.items);
+      (void)timeRun_s(contestant);
+      times_s[i].push_back(timeRun_s(contestant) / contestant.items);
     }
   }
   std::vector<Standing> standings;

@@ -37,8 +37,9 @@ struct Standing {
 /// Processor time that the calling thread has used [s]: other programs on the machine do not count.
 [[nodiscard]] double threadTime_s();
 
-/// All contestants in turn, `rounds` times after one that does not count, so that what slows the machine down slows all
-/// of them down.
+/// All contestants in turn, `rounds` times, so that what slows the machine down slows all of them down. Each turn begins
+/// with a run that does not count: what is timed finds the caches as its own work leaves them, as in flight, and not as
+/// an opponent of several hundred megabytes does.
 [[nodiscard]] std::vector<Standing> hold(const Contest& contest, int rounds);
 
 /// The fastest of those whose name begins with `opponent`, divided by ours. @pre there is one
