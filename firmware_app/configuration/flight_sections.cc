@@ -110,8 +110,9 @@ Section safetySection() {
            "max_stamp_lead_s", "Stamps farther ahead of our clock are of another clock.", kDuration_s,
            [](auto& c) -> auto& { return c.safety.max_stamp_lead; }),
        durationKey(
-           "max_step_s", "This process was held up if it did not send for longer.", kDuration_s,
-           [](auto& c) -> auto& { return c.safety.max_step; }),
+           "max_step_s",
+           "This process was held up if it did not send for longer, or what it sent was refused for longer.",
+           kDuration_s, [](auto& c) -> auto& { return c.safety.max_step; }),
        durationKey(
            "critical_after_s", "A fault in flight that has lasted for this is critical.", kDuration_s,
            [](auto& c) -> auto& { return c.safety.critical_after; }),

@@ -180,6 +180,7 @@ void HealthMonitor::addCounters(health_t& health, const NamedCounters& others) c
   list.add("decisions", decision_ ? decision_->sequence + 1 : 0);
   list.add("setpoints", sink_.counters.setpoints);
   list.addIfAny("setpoints: refused by the link", sink_.counters.setpoints_failed);
+  list.addIfAny("plans: of a motion that cannot be flown", sink_.counters.plans_refused);
 
   const std::uint64_t dropped = hand_overs_.inputs.dropped() + hand_overs_.cameras.dropped() +
                                 hand_overs_.captured.dropped() + hand_overs_.indexed.dropped() +

@@ -1,6 +1,7 @@
 #include "firmware_app/safety/commander.h"
 
 #include "core/level_frame.h"
+#include "firmware_app/safety/sound_motion.h"
 
 namespace nanomap {
 namespace {
@@ -34,8 +35,8 @@ LocalNedTarget toNed(Time now, const CommandedMotion& commanded, const NedFromWo
 
 }  // namespace
 
-Commander::Commander(const SafetyParameters& parameters, double max_yaw_rate_rad_s)
-    : machine_(checked(parameters)), heading_(max_yaw_rate_rad_s) {}
+Commander::Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s)
+    : machine_(checked(parameters)), limits_(limits), heading_(max_yaw_rate_rad_s) {}
 
 bool isRefused(const CommandInputs& inputs) {
   return inputs.recording && inputs.autopilot.linked && !inputs.autopilot.simulated;
@@ -43,9 +44,10 @@ bool isRefused(const CommandInputs& inputs) {
 
 Command Commander::step(Time now, const CommandInputs& inputs) {
   Command command;
-  command.verdict = machine_.step(situationAt(now, inputs));
+  command.plan_refused = inputs.plan.in_force && !isSound(*inputs.plan.in_force, limits_);
+  command.verdict = machine_.step(situationAt(now, inputs, command.plan_refused));
   const bool braked = command.verdict.state == State::kBraking || command.verdict.state == State::kLost;
-  if (!braked) in_force_.adopt(inputs.plan.in_force, inputs.plan.sequence, inputs.alignment);
+  if (!braked && !command.plan_refused) in_force_.adopt(inputs.plan.in_force, inputs.plan.sequence, inputs.alignment);
   in_force_.follow(inputs.alignment);
   command.status = statusOf(command.verdict);
   command.motion = motion(now, command.verdict.stream, inputs);
@@ -56,7 +58,7 @@ Command Commander::step(Time now, const CommandInputs& inputs) {
   return command;
 }
 
-Situation Commander::situationAt(Time now, const CommandInputs& inputs) const {
+Situation Commander::situationAt(Time now, const CommandInputs& inputs, bool plan_refused) const {
   const VehicleReport& vehicle = inputs.vehicle;
   const Alignment& alignment = inputs.alignment;
   Situation situation;
@@ -71,12 +73,14 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs) const {
     situation.anchored = alignment.verdict == AlignmentVerdict::kGood && alignment.epoch == vehicle.state->epoch;
   }
   const auto& plan = inputs.plan.in_force;
-  if (plan && vehicle.state && plan->consumed.epoch == vehicle.state->epoch) situation.plan = plan->stamp;
+  const bool flyable = plan && !plan_refused;
+  if (flyable && vehicle.state && plan->consumed.epoch == vehicle.state->epoch) situation.plan = plan->stamp;
   if (const auto& decision = in_force_.decision()) {
     situation.brake_end = decision->brake.start() + fromSeconds(decision->brake.duration_s());
     const bool silent = alignment.verdict == AlignmentVerdict::kUnknown && alignment.T_NED_W;
     situation.anchored_before = silent || decision->consumed.epoch != alignment.epoch;
   }
+  situation.unsent_since = inputs.unsent_since;
   situation.linked = inputs.autopilot.linked;
   situation.live_refused = isRefused(inputs);
   situation.armed = inputs.autopilot.armed;

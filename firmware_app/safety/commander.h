@@ -11,6 +11,7 @@
 #include "firmware_app/safety/heading_limiter.h"
 #include "firmware_app/safety/motion_in_force.h"
 #include "firmware_app/safety/state_machine.h"
+#include "planner/motion_limits.h"
 
 namespace nanomap {
 
@@ -36,8 +37,9 @@ struct CommandInputs {
   PlanReport plan;
   AutopilotState autopilot;
   Alignment alignment;
-  bool stalled = false;    ///< a thread of this process does not answer
-  bool recording = false;  ///< vehicle and plan are those of a recording: only a simulated autopilot is flown
+  bool stalled = false;              ///< a thread of this process does not answer
+  std::optional<Time> unsent_since;  ///< what should have been sent since then was refused
+  bool recording = false;            ///< vehicle and plan are those of a recording: only a simulated autopilot is flown
 };
 
 /// What the autopilot is told, in the world of the motion in force; of a hold, in that of the poses.
@@ -57,6 +59,7 @@ struct Command {
   std::optional<CommandedMotion> motion;  ///< empty: nothing is sent
   LocalNedTarget target;                  ///< the same for the autopilot; of use with a motion
   SystemStatus status = SystemStatus::kBoot;
+  bool plan_refused = false;  ///< the last plan's motion cannot be flown (isSound): a defect of ours
 };
 
 /// Makes the setpoint of each moment: the state machine says which stream, the motion in force where to. A setpoint is
@@ -64,19 +67,22 @@ struct Command {
 /// A function of what it was given, in that order. Threads: one. Allocates: no.
 class Commander {
  public:
+  /// @param limits              of every motion that is flown
   /// @param max_yaw_rate_rad_s  how fast the heading handed out turns
   /// @throws std::invalid_argument naming the parameter that is wrong
-  Commander(const SafetyParameters& parameters, double max_yaw_rate_rad_s);
+  Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s);
 
   [[nodiscard]] Command step(Time now, const CommandInputs& inputs);
 
   [[nodiscard]] const std::optional<Decision>& inForce() const { return in_force_.decision(); }
 
  private:
-  [[nodiscard]] Situation situationAt(Time now, const CommandInputs& inputs) const;
+  /// @param plan_refused  as in Command
+  [[nodiscard]] Situation situationAt(Time now, const CommandInputs& inputs, bool plan_refused) const;
   [[nodiscard]] std::optional<CommandedMotion> motion(Time now, Stream stream, const CommandInputs& inputs);
 
   StateMachine machine_;
+  MotionLimits limits_;
   MotionInForce in_force_;
   HeadingLimiter heading_;
 };

@@ -20,6 +20,8 @@ std::string_view toString(Fault fault) {
       return "stamps of our clock";
     case Fault::kPlan:
       return "a plan";
+    case Fault::kUnsent:
+      return "a way out for setpoints";
     case Fault::kAutopilot:
       return "autopilot";
     case Fault::kAlignment:

@@ -18,11 +18,12 @@ enum class Fault : std::uint8_t {
   kPose,        ///< no pose, or too old a one
   kClock,       ///< stamps ahead of our time: another clock
   kPlan,        ///< no plan, or too old a one
+  kUnsent,      ///< setpoints that do not get out
   kAutopilot,   ///< no autopilot is heard
   kAlignment,   ///< T_NED_W is not known well enough
   kLive,        ///< what we see is a recording, and the autopilot flies a real vehicle
 };
-inline constexpr std::size_t kFaultCount = 11;
+inline constexpr std::size_t kFaultCount = 12;
 
 /// In a pilot's words, as what is missing: "depth images".
 [[nodiscard]] std::string_view toString(Fault fault);

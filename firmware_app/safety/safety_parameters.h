@@ -19,7 +19,8 @@ struct SafetyParameters {
   Duration max_depth_age = std::chrono::milliseconds(200);  ///< of its exposure
   Duration max_pose_age = std::chrono::milliseconds(200);
   Duration max_stamp_lead = std::chrono::milliseconds(50);  ///< farther ahead of our time is another clock
-  Duration max_step = std::chrono::milliseconds(200);       ///< between two steps of the state machine: else held up
+  Duration max_step =
+      std::chrono::milliseconds(200);  ///< between two steps, or two setpoints that get out: else held up
   Duration critical_after = std::chrono::milliseconds(500);
   Duration settle = std::chrono::milliseconds(500);  ///< without a fault, before it counts as over
   Duration patience = std::chrono::seconds(2);       ///< that a standing vehicle has with a fault

@@ -61,6 +61,7 @@ FaultSet StateMachine::faultsOf(const Situation& situation) const {
     faults.add(Fault::kClock);
   }
   if (older(situation.plan, parameters_.max_plan_age, now)) faults.add(Fault::kPlan);
+  if (situation.unsent_since && now - *situation.unsent_since > parameters_.max_step) faults.add(Fault::kUnsent);
   if (!situation.linked) faults.add(Fault::kAutopilot);
   if (!situation.anchored) faults.add(Fault::kAlignment);
   if (situation.live_refused) faults.add(Fault::kLive);

@@ -64,8 +64,9 @@ struct Situation {
   /// poses' world is another; or the autopilot no longer tells where it is.
   bool anchored_before = false;
 
-  bool live_refused = false;  ///< the autopilot flies a real vehicle, and what we see is a recording
-  bool linked = false;        ///< the autopilot is heard
+  std::optional<Time> unsent_since;  ///< what should have been sent since then was refused on its way out
+  bool live_refused = false;         ///< the autopilot flies a real vehicle, and what we see is a recording
+  bool linked = false;               ///< the autopilot is heard
   bool armed = false;
   bool external_control = false;
   std::uint64_t external_control_entries = 0;

@@ -36,19 +36,20 @@ SinkStage::SinkStage(const SinkParameters& parameters, AutopilotLink& link, cons
       link_(link),
       ports_(ports),
       alignment_(parameters.alignment),
-      commander_(parameters.safety, parameters.max_yaw_rate_rad_s) {
+      commander_(parameters.safety, parameters.limits, parameters.max_yaw_rate_rad_s) {
   inputs_.recording = parameters.recording;
 }
 
 void SinkStage::run(Time now) {
   link_.keepAlive(status_);
-  takeIn(now);
+  const bool planned = takeIn(now);
   inputs_.autopilot = link_.autopilot();
   inputs_.alignment = alignment_.alignment(now);
   inputs_.stalled = ports_.stalled.load(std::memory_order_relaxed);
 
   const Command command = commander_.step(now, inputs_);
   status_ = command.status;
+  if (planned && command.plan_refused) ++counters_.plans_refused;
   ports_.flown.store(command.verdict.state == State::kFlying, std::memory_order_relaxed);
   send(now, command);
   if (const auto text = voice_.step(now, command.verdict, inputs_.plan.reason)) {
@@ -70,7 +71,7 @@ void SinkStage::run(Time now) {
   });
 }
 
-void SinkStage::takeIn(Time now) {
+bool SinkStage::takeIn(Time now) {
   while (ports_.vehicle.pop([this](const VehicleReport& report) { inputs_.vehicle = report; })) {
     if (!inputs_.vehicle.state) continue;
     alignment_.addWorldPose(poseOf(*inputs_.vehicle.state));
@@ -82,14 +83,20 @@ void SinkStage::takeIn(Time now) {
   while (const auto pose = link_.takePose()) alignment_.addAutopilotPose(*pose);
   const bool planned = ports_.plans.take([this](const PlanReport& report) { inputs_.plan = report; });
   if (planned) ports_.latencies.push([&](Duration& slot) { slot = now - inputs_.plan.newest_view; });
+  return planned;
 }
 
 void SinkStage::send(Time now, const Command& command) {
-  if (command.motion) {
-    const bool sent = link_.send(command.target) == SendResult::kSent;
-    ++(sent ? counters_.setpoints : counters_.setpoints_failed);
+  const bool sent = command.motion && link_.send(command.target) == SendResult::kSent;
+  if (command.motion) ++(sent ? counters_.setpoints : counters_.setpoints_failed);
+  if (sent || !command.motion) {
+    inputs_.unsent_since.reset();
+  } else if (!inputs_.unsent_since) {
+    inputs_.unsent_since = now;
   }
-  ports_.setpoints.push([&](SentSetpoint& slot) { slot = {now, command.verdict, command.motion}; });
+  ports_.setpoints.push([&](SentSetpoint& slot) {
+    slot = {now, command.verdict, sent ? command.motion : std::nullopt};
+  });
 }
 
 void SinkStage::sendOdometry(const VehicleState& state) {

@@ -17,6 +17,7 @@ namespace nanomap {
 
 struct SinkParameters {
   SafetyParameters safety{};
+  MotionLimits limits{};
   AlignmentParameters alignment{};
   double max_yaw_rate_rad_s = 1.0;
   bool send_obstacles = true;  ///< OBSTACLE_DISTANCE, at 10 Hz
@@ -37,6 +38,7 @@ struct SentSetpoint {
 struct SinkCounters {
   std::uint64_t setpoints = 0;  ///< handed to the link
   std::uint64_t setpoints_failed = 0;
+  std::uint64_t plans_refused = 0;  ///< whose motion cannot be flown
   std::uint64_t texts = 0;
   AlignmentCounters alignment;
 };
@@ -78,7 +80,8 @@ class SinkStage {
   void run(Time now);
 
  private:
-  void takeIn(Time now);
+  /// @return is there another plan?
+  bool takeIn(Time now);
   void send(Time now, const Command& command);
   void sendOdometry(const VehicleState& state);
   void sendObstacles(Time now);

@@ -11,6 +11,7 @@ constexpr std::size_t kViewsUnderWay = 32;
 SinkParameters sinkParameters(const Configuration& configuration) {
   SinkParameters sink;
   sink.safety = configuration.safety;
+  sink.limits = configuration.planner.limits;
   sink.alignment = configuration.mavlink.alignment;
   sink.max_yaw_rate_rad_s = configuration.planner.heading.max_rate_rad_s;
   sink.send_obstacles = configuration.mavlink.send_obstacles;

@@ -63,13 +63,13 @@ class CommanderInFlight : public ::testing::Test {
   }
 
   static inline const Vec3 kHere_W_m{5.0, 2.0, 1.5};
-  Commander commander_{SafetyParameters{}, 1.0};
+  Commander commander_{SafetyParameters{}, MotionLimits{}, 1.0};
   Time now_ = atMs(10'000);
   Command command_;
 };
 
 TEST(Commander, HoldsWhereTheVehicleIsWhileReady) {
-  Commander commander{SafetyParameters{}, 1.0};
+  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0};
   const NedFromWorld T_NED_W(70.0 * kDeg, {100.0, -50.0, -3.0});
   const Vec3 here_W{5.0, 2.0, 1.5};
   const Command command = commander.step(atMs(0), inputsAt(atMs(0), here_W, 3.0));
@@ -82,7 +82,7 @@ TEST(Commander, HoldsWhereTheVehicleIsWhileReady) {
 }
 
 TEST(Commander, SendsNothingWithoutAlignment) {
-  Commander commander{SafetyParameters{}, 1.0};
+  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0};
   CommandInputs inputs = inputsAt(atMs(0), Vec3::Zero(), 0.0);
   inputs.alignment = {};
   const Command command = commander.step(atMs(0), inputs);

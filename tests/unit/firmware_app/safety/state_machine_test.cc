@@ -294,6 +294,8 @@ const FaultCase kFaultCases[] = {
     {"DepthOfAnotherClock", [](Situation& s, Time) { s.depth = s.now + kSecond; }, Fault::kClock, kAtOnce,
      Stream::kMotion},
     {"DepthStuck", [](Situation& s, Time) { s.depth_stuck = true; }, Fault::kDepthStuck, kAtOnce, Stream::kMotion},
+    {"SetpointsRefused", [](Situation& s, Time began) { s.unsent_since = began; }, Fault::kUnsent,
+     std::chrono::milliseconds(200), Stream::kMotion},
     {"PoseOff", [](Situation& s, Time began) { s.pose = began; }, Fault::kPose, std::chrono::milliseconds(200),
      Stream::kVelocity},
     {"PoseLate", [](Situation& s, Time) { s.pose = s.now - kSecond; }, Fault::kPose, kAtOnce, Stream::kVelocity},

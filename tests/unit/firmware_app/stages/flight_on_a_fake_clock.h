@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <random>
@@ -28,6 +29,11 @@ class ObedientAutopilot : public sim::InProcessAutopilot {
  public:
   static constexpr Duration kStreamTimeout = std::chrono::milliseconds(500);
 
+  using InProcessAutopilot::send;
+  [[nodiscard]] SendResult send(const LocalNedTarget& told) override {
+    return refuses ? SendResult::kNotFinite : InProcessAutopilot::send(told);
+  }
+
   /// Moves the vehicle over the time since the last call.
   void move(Time until) {
     const double elapsed_s = toSeconds(until - now);
@@ -45,6 +51,7 @@ class ObedientAutopilot : public sim::InProcessAutopilot {
   }
 
   Vec3 position_NED_m = Vec3::Zero();
+  bool refuses = false;              ///< whatever it is sent
   Vec3 offset_NED_m = Vec3::Zero();  ///< that its own estimate is off by
   Vec3 velocity_NED_m_s = Vec3::Zero();
   double heading_rad = 0.0;
@@ -163,6 +170,8 @@ class FlightOnAFakeClock {
     const bool planner_runs = !silent(Broken::kPlanner) && !is(Broken::kPlanner, How::kStuck) &&
                               (!is(Broken::kPlanner, How::kLate) || ticks_ % 40 == 0);
     if (planner_runs) stages_.plan.run(now_);
+    if (is(Broken::kPlanner, How::kGarbage)) garblePlan();
+    autopilot.refuses = is(Broken::kSink, How::kGarbage);
     const bool sink_runs = !silent(Broken::kSink) && !is(Broken::kSink, How::kStuck) &&
                            (!is(Broken::kSink, How::kLate) || ticks_ % 30 == 0);
     if (ticks_ % 2 == 0 && sink_runs) stages_.sink.run(now_);
@@ -176,6 +185,21 @@ class FlightOnAFakeClock {
     }
     while (stages_.hand_overs.steps.pop([](const Step&) {})) {
     }
+  }
+
+  /// Motions that no planner in order gives, by turns: not a number, infinitely far, harder than the vehicle can,
+  /// without an end.
+  void garblePlan() {
+    const auto& [sequence, last] = *decisions_.rbegin();
+    PlanReport report{last.decision, sequence, now_, Reason::kFlying};
+    Trajectory& brake = report.in_force->brake;
+    report.in_force->stamp = now_;
+    Motion start{T_W_B().translation_m, T_NED_W_.directionInWorld(autopilot.velocity_NED_m_s), Vec3::Zero()};
+    if (ticks_ % 4 == 1) start.position_m.x() = std::numeric_limits<double>::infinity();
+    brake = Trajectory(now_, start);
+    if (ticks_ % 4 == 0) brake.append(1.0, Vec3::Constant(std::nan("")));
+    if (ticks_ % 4 == 2) brake.append(1.0, {0.0, 500.0, 0.0});
+    stages_.hand_overs.plans.put([&](PlanReport& slot) { slot = report; });
   }
 
   [[nodiscard]] Time stampNow() const {
