@@ -9,22 +9,18 @@
 namespace nanomap {
 namespace {
 
-/// A goal that has moved by more since the last plan is another one.
+// What follows tells noise from what is meant, and is the same for any vehicle and place: nobody has to tune it.
+
+/// A goal that has moved by more since the last plan is another one: corrections for drift move it by less.
 constexpr double kSamePlace_m = 1.0;
 
-/// Less is no progress, but noise.
+/// Less is no progress, but noise of the estimator.
 constexpr double kProgress_m = 0.2;
-
-/// Back where it began: within this; and it has left once it is farther away than twice as much.
-constexpr double kReturn_m = 3.0;
-
-/// Who is held up nearer than this to its goal finds no way round it either: the goal itself is too near to something.
-constexpr double kNearGoal_m = 3.0;
 
 /// Slower than that, a motion has no direction to lean from.
 constexpr double kMoving_m_s = 0.5;
 
-/// A goal that is turned is at least this far away: it is steered for, and never reached.
+/// A goal that is turned is at least this far away: it is steered for, and never reached, as every plan turns it anew.
 constexpr double kLeastReach_m = 10.0;
 
 /// Plans that are farther apart do not make for a larger turn.
@@ -67,7 +63,7 @@ Goal Detour::steer(const VehicleState& start, const Goal& goal) {
   if (attempt_) {
     follow(start, to_goal_W, std::clamp(start.stamp - last_stamp_, Duration::zero(), kLongestStep));
     if (isInVain(start)) begin(start, -attempt_->side);
-  } else if (start.stamp - last_progress_ >= parameters_.patience && to_goal_W.norm() > kNearGoal_m) {
+  } else if (start.stamp - last_progress_ >= parameters_.patience && to_goal_W.norm() > parameters_.near_goal_m) {
     const double looks_rad = wrapAngle(yawOf(start.T_W_B.rotation) - headingOf(to_goal_W));
     begin(start, looks_rad >= 0.0 ? 1.0 : -1.0);
   }
@@ -101,8 +97,8 @@ void Detour::follow(const VehicleState& start, const Vec3& to_goal_W, Duration e
 
 bool Detour::isInVain(const VehicleState& start) {
   const double away_m = (start.T_W_B.translation_m - attempt_->began_W_m).norm();
-  if (away_m > 2.0 * kReturn_m) attempt_->left = true;
-  const bool returned = attempt_->left && away_m < kReturn_m;
+  if (away_m > 2.0 * parameters_.return_m) attempt_->left = true;
+  const bool returned = attempt_->left && away_m < parameters_.return_m;
   return returned || attempt_->turn_rad > kFullTurn_rad || start.stamp - attempt_->began > parameters_.give_up_after;
 }
 

@@ -14,6 +14,8 @@ struct DetourParameters {
   double turn_rate_rad_s = 0.8;                       ///< how fast the course turns away from the goal, and back
   double lean_rad = 0.6;                              ///< of the course towards what is gone round, from where it flies
   Duration give_up_after = std::chrono::seconds(60);  ///< of one attempt; 0: there is none
+  double return_m = 3.0;     ///< back where it began: within this, having left it by twice as much
+  double near_goal_m = 3.0;  ///< held up nearer to its goal, a vehicle finds no way round
 };
 
 /// The memory of a way round what is wider than one plan sees (Pledge's algorithm). A vehicle that comes no nearer to

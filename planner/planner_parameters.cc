@@ -115,6 +115,8 @@ void check(const DetourParameters& detour) {
           "above 0, below a right angle");
   require(detour.give_up_after >= Duration::zero(), "detour.give_up_after", toSeconds(detour.give_up_after),
           "0 s or more");
+  requirePositive("detour.return_m", detour.return_m);
+  requireNotNegative("detour.near_goal_m", detour.near_goal_m);
 }
 
 /// How far away the vehicle stands after a plan's hardest start from rest and its brake.

@@ -260,7 +260,15 @@ Section detourSection() {
            {0.0, 1.5, true}, [](auto& c) -> auto& { return c.planner.detour.lean_rad; }),
        durationKey(
            "give_up_after_s", "An attempt to one side that takes longer is given up; 0: no detours.", {0.0, 3600.0},
-           [](auto& c) -> auto& { return c.planner.detour.give_up_after; })},
+           [](auto& c) -> auto& { return c.planner.detour.give_up_after; }),
+       numberKey(
+           "return_m",
+           "An attempt that leads back to within this of where it began is given up, too, once it has led away from\n"
+           "there by twice as much. Less among small rooms.",
+           {0.0, 1000.0, true}, [](auto& c) -> auto& { return c.planner.detour.return_m; }),
+       numberKey(
+           "near_goal_m", "Nearer to its goal, a vehicle that is held up looks for no way round.", {0.0, 1000.0},
+           [](auto& c) -> auto& { return c.planner.detour.near_goal_m; })},
       {}};
 }
 

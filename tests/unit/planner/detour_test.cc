@@ -80,6 +80,9 @@ TEST_F(DetourTest, WhoDoesNotWantToGoOnIsLeftAlone) {
 TEST_F(DetourTest, HeldUpJustBeforeItsGoalItStays) {
   goal_ = goalAt({2.9, 0.0, 0.0});
   EXPECT_EQ(run(30s, Reason::kBlocked), 0.0);
+  parameters_.near_goal_m = 2.8;
+  detour_ = Detour(parameters_);
+  EXPECT_NE(run(4s, Reason::kBlocked), 0.0);
 }
 
 TEST_F(DetourTest, CreepingIsNoProgress) {
@@ -124,6 +127,18 @@ TEST_F(DetourTest, AWayThatLeadsBackIsTriedToTheOtherSide) {
   moveTo({0.0, 7.0, 0.0});
   (void)run(500ms, Reason::kBlocked);
   moveTo({0.0, 2.0, 0.0});
+  EXPECT_LT(run(1s, Reason::kBlocked), -0.5);
+}
+
+TEST_F(DetourTest, WhatIsBackIsAsFarAsConfigured) {
+  parameters_.return_m = 1.0;
+  detour_ = Detour(parameters_);
+  (void)run(4s, Reason::kBlocked);
+  moveTo({0.0, 2.1, 0.0});
+  (void)run(500ms, Reason::kBlocked);
+  moveTo({0.0, 1.1, 0.0});
+  EXPECT_GT(run(500ms, Reason::kBlocked), 0.5);
+  moveTo({0.0, 0.9, 0.0});
   EXPECT_LT(run(1s, Reason::kBlocked), -0.5);
 }
 
