@@ -133,7 +133,7 @@ TEST_F(DetourTest, AWayThatLeadsBackIsTriedToTheOtherSide) {
 TEST_F(DetourTest, WhatIsBackIsAsFarAsConfigured) {
   parameters_.return_m = 1.0;
   detour_ = Detour(parameters_);
-  (void)run(4s, Reason::kBlocked);
+  (void)run(3s, Reason::kBlocked);
   moveTo({0.0, 2.1, 0.0});
   (void)run(500ms, Reason::kBlocked);
   moveTo({0.0, 1.1, 0.0});
