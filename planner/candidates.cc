@@ -55,8 +55,16 @@ TrajectoryRisk Candidates::assessBrake(std::uint32_t index) const {
 
 Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* evidence) const {
   Verdict verdict;
+  const Trajectory trajectory = motion(index);
+  if (stop_early) {
+    if (const std::optional<TrajectoryRisk> vetoed = space_.glance(trajectory, parameters_.samples)) {
+      verdict.motion = *vetoed;
+      verdict.veto = vetoed->veto;
+      return verdict;
+    }
+  }
   verdict.motion =
-      space_.assess(motion(index), parameters_.samples, stop_early, evidence != nullptr ? &evidence->motion : nullptr);
+      space_.assess(trajectory, parameters_.samples, stop_early, evidence != nullptr ? &evidence->motion : nullptr);
   verdict.veto = verdict.motion.veto;
   if (verdict.veto || parameters_.stop_check == StopCheck::kPaper) return verdict;
 

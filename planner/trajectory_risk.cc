@@ -101,6 +101,21 @@ SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool
   return sample;
 }
 
+std::optional<TrajectoryRisk> SpaceAhead::glance(const Trajectory& trajectory, int samples) const {
+  constexpr int kGlances = 5;
+  const int stride = std::max(samples / kGlances, 1);
+  // The end first: it is farthest into what may be in the way.
+  for (int i = samples; i > 0; i -= stride) {
+    const double elapsed_s = trajectory.duration_s() * i / samples;
+    const SampleEvidence sample = assess(trajectory.sample(elapsed_s), elapsed_s, true);
+    RiskTally tally(parameters_.max_risk);
+    tally.add(sample);
+    const TrajectoryRisk alone = tally.result(sample, sample);
+    if (alone.veto) return alone;
+  }
+  return std::nullopt;
+}
+
 TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, bool stop_early,
                                   std::vector<SampleEvidence>* evidence) const {
   const double duration_s = trajectory.duration_s();

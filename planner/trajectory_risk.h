@@ -106,6 +106,10 @@ class SpaceAhead {
   [[nodiscard]] TrajectoryRisk assess(const Trajectory& trajectory, int samples, bool stop_early,
                                       std::vector<SampleEvidence>* evidence = nullptr) const;
 
+  /// The veto of the first of a few samples of assess(), far apart, that is above the constraint all by itself; empty
+  /// if none is. Soon finds most of what assess() would veto after many. `first` and `last` are that sample.
+  [[nodiscard]] std::optional<TrajectoryRisk> glance(const Trajectory& trajectory, int samples) const;
+
  private:
   [[nodiscard]] Mat3 covariance_B(double horizontal_std_m, double vertical_std_m) const;
   [[nodiscard]] double unseenProbability(const UncertainPoint& x_B, double reach_m) const;

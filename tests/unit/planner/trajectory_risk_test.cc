@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
 #include "tests/unit/planner/flight.h"
 
 namespace nanomap {
@@ -121,6 +126,30 @@ TEST(SpaceAhead, SamplesAreInsertedWhereSomethingIsNear) {
   evidence.clear();
   (void)empty.space().assess(straight({1.0, 0.0, 0.0}), 2, false, &evidence);
   EXPECT_EQ(evidence.size(), 7U) << "two steps of a metre, each in parts of at most 0.4 m";
+}
+
+TEST(SpaceAhead, AGlanceVetoesOnlyWhatAWholeLookVetoes) {
+  const Seen seen(DrawnWorld{{Block{{5.0, -4.0, 0.0}, {5.3, -2.0, 8.0}}}});
+  const SpaceAhead space = seen.space();
+  constexpr int kSamples = 23;  // no multiple of the glances
+  int vetoed = 0;
+  int glanced = 0;
+  for (double course_rad = -1.5; course_rad < 1.5; course_rad += 0.02) {
+    const Trajectory way = straight({3.0 * std::cos(course_rad), 3.0 * std::sin(course_rad), 0.0});
+    std::vector<SampleEvidence> evidence;
+    const bool is_vetoed = space.assess(way, kSamples, false, &evidence).veto.has_value();
+    vetoed += is_vetoed ? 1 : 0;
+    const std::optional<TrajectoryRisk> glance = space.glance(way, kSamples);
+    if (!glance) continue;
+    ++glanced;
+    EXPECT_TRUE(is_vetoed);
+    EXPECT_TRUE(glance->veto);
+    const auto isGlanced = [&](const SampleEvidence& sample) { return sample.elapsed_s == glance->first.elapsed_s; };
+    EXPECT_EQ(std::ranges::count_if(evidence, isGlanced), 1) << "a sample of the whole look";
+  }
+  EXPECT_LT(vetoed, 140) << "some ways are open";
+  EXPECT_GT(glanced, vetoed * 9 / 10);
+  EXPECT_GT(glanced, 50);
 }
 
 TEST(SpaceAhead, RiskIsThatOfIndependentSamples) {
