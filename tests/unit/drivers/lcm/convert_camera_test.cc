@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "drivers/lcm/convert.h"
+#include "drivers/lcm/depth_codec.h"
 
 namespace nanomap {
 namespace {
@@ -51,6 +54,18 @@ TEST(ToCameraParameters, WhatWasMadeOfACameraGivesItBack) {
 TEST(ToCameraParameters, NegativeSizeIsNamed) {
   camera_model_t message = toMessage(camera(), "", Time{});
   message.height = -240;
+  EXPECT_EQ(std::get<ConvertFault>(toCameraParameters(message)), ConvertFault::kBadSize);
+}
+
+TEST(ToCameraParameters, SizeBeyondEveryImageIsNamed) {
+  camera_model_t message = toMessage(camera(), "", Time{});
+  message.width = std::numeric_limits<std::int32_t>::max();
+  message.height = std::numeric_limits<std::int32_t>::max();
+  EXPECT_EQ(std::get<ConvertFault>(toCameraParameters(message)), ConvertFault::kBadSize);
+  message.width = static_cast<std::int32_t>(kMaxImagePixels);
+  message.height = 1;
+  EXPECT_TRUE(std::holds_alternative<CameraParameters>(toCameraParameters(message)));
+  message.height = 2;
   EXPECT_EQ(std::get<ConvertFault>(toCameraParameters(message)), ConvertFault::kBadSize);
 }
 
