@@ -94,13 +94,22 @@ std::optional<CommandedMotion> Commander::motion(Time now, Stream stream, const 
   if (stream == Stream::kHold) {
     const Pose& T_W_B = inputs.vehicle.state->T_W_B;
     const double yaw_W_rad = yawOf(T_W_B.rotation);
-    heading_.reset(now, yaw_W_rad);
+    beginHeading(now, *inputs.vehicle.state);
     return CommandedMotion{{T_W_B.translation_m, Vec3::Zero(), Vec3::Zero()}, yaw_W_rad, true, std::nullopt};
   }
   if (!in_force_.decision()) return std::nullopt;
   const Decision& decision = *in_force_.decision();
+  const auto& state = inputs.vehicle.state;
+  if (heading_epoch_ != decision.consumed.epoch && state && state->epoch == decision.consumed.epoch) {
+    beginHeading(now, *state);
+  }
   const double yaw_W_rad = heading_.follow(now, decision.yaw_W_rad);
   return CommandedMotion{decision.brake.sample(now), yaw_W_rad, stream == Stream::kMotion, in_force_.sequence()};
+}
+
+void Commander::beginHeading(Time now, const VehicleState& state) {
+  heading_.reset(now, yawOf(state.T_W_B.rotation));
+  heading_epoch_ = state.epoch;
 }
 
 }  // namespace nanomap

@@ -80,11 +80,14 @@ class Commander {
   /// @param plan_refused  as in Command
   [[nodiscard]] Situation situationAt(Time now, const CommandInputs& inputs, bool plan_refused) const;
   [[nodiscard]] std::optional<CommandedMotion> motion(Time now, Stream stream, const CommandInputs& inputs);
+  /// From where the vehicle looks: a heading of another world leads nowhere in this one.
+  void beginHeading(Time now, const VehicleState& state);
 
   StateMachine machine_;
   MotionLimits limits_;
   MotionInForce in_force_;
   HeadingLimiter heading_;
+  std::uint32_t heading_epoch_ = 0;  ///< of the world that it is in
 };
 
 }  // namespace nanomap

@@ -157,13 +157,15 @@ TEST_F(CommanderInFlight, SilentAutopilotIsBrakedAlongThePlacesThatWereVerified)
 // The estimator's world jumps by tens of metres and 40 degrees; the autopilot's does not.
 TEST_F(CommanderInFlight, JumpOfTheEstimatorNeverStepsTheSetpoint) {
   constexpr float kLargestStep_m = 0.15F;  // 4 m/s for a step, and what braking adds
+  constexpr double kLargestTurn_rad = 1e-6;
   const NedFromWorld T_NED_W = *inputsAt(now_, kHere_W_m, 0.0).alignment.T_NED_W;
   const NedFromWorld T_NED_Wnew(30.0 * kDeg, {60.0, 20.0, -3.0});
   const Decision before = flying(now_, kHere_W_m, 4.0);
   const Time jump = now_ + std::chrono::milliseconds(100);
   const Time known = jump + std::chrono::milliseconds(1100);
   const Vec3 stands_NED = T_NED_W.point(before.brake.atEnd().position_m);
-  std::optional<Vec3f> last;
+  const double yaw_Wnew_rad = T_NED_Wnew.heading(T_NED_W.heading(0.0));  // the vehicle goes on looking along old x
+  std::optional<LocalNedTarget> last;
   bool new_world_flown = false;
   for (const Time end = now_ + std::chrono::seconds(4); now_ < end; now_ += kStep) {
     CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 4.0));
@@ -174,16 +176,19 @@ TEST_F(CommanderInFlight, JumpOfTheEstimatorNeverStepsTheSetpoint) {
       const Vec3 here_Wnew = T_NED_Wnew.pointInWorld(stands_NED);
       inputs.vehicle.state->epoch = 1;
       inputs.vehicle.state->T_W_B.translation_m = here_Wnew;
+      inputs.vehicle.state->T_W_B.rotation = Quat(Eigen::AngleAxisd(yaw_Wnew_rad, Vec3::UnitZ()));
       inputs.plan.in_force = flying(now_, here_Wnew, 0.0, 1);
+      inputs.plan.in_force->yaw_W_rad = yaw_Wnew_rad;
       inputs.alignment = now_ < known ? Alignment{} : aligned(T_NED_Wnew, 1);
       inputs.alignment.epoch = 1;
     }
     const Command command = commander_.step(now_, inputs);
     ASSERT_TRUE(command.motion) << command.verdict.faults.words();
     if (last) {
-      EXPECT_LE((command.target.position_NED_m - *last).norm(), kLargestStep_m);
+      EXPECT_LE((command.target.position_NED_m - last->position_NED_m).norm(), kLargestStep_m);
+      EXPECT_LE(std::abs(wrapAngle(command.target.yaw_NED_rad - last->yaw_NED_rad)), kLargestTurn_rad);
     }
-    last = command.target.position_NED_m;
+    last = command.target;
     new_world_flown |= command.verdict.state == State::kFlying && commander_.inForce()->consumed.epoch == 1;
   }
   EXPECT_TRUE(new_world_flown);
