@@ -44,11 +44,11 @@ bool isRefused(const CommandInputs& inputs) {
 
 Command Commander::step(Time now, const CommandInputs& inputs) {
   Command command;
+  in_force_.follow(inputs.alignment);
   command.plan_refused = inputs.plan.in_force && !isSound(*inputs.plan.in_force, limits_);
   command.verdict = machine_.step(situationAt(now, inputs, command.plan_refused));
   const bool braked = command.verdict.state == State::kBraking || command.verdict.state == State::kLost;
   if (!braked && !command.plan_refused) in_force_.adopt(inputs.plan.in_force, inputs.plan.sequence, inputs.alignment);
-  in_force_.follow(inputs.alignment);
   command.status = statusOf(command.verdict);
   command.motion = motion(now, command.verdict.stream, inputs);
   if (command.motion) {
@@ -77,8 +77,7 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs, bool pla
   if (flyable && vehicle.state && plan->consumed.epoch == vehicle.state->epoch) situation.plan = plan->stamp;
   if (const auto& decision = in_force_.decision()) {
     situation.brake_end = decision->brake.start() + fromSeconds(decision->brake.duration_s());
-    const bool silent = alignment.verdict == AlignmentVerdict::kUnknown && alignment.T_NED_W;
-    situation.anchored_before = silent || decision->consumed.epoch != alignment.epoch;
+    situation.anchored_before = in_force_.anchorOutlives(alignment);
   }
   situation.unsent_since = inputs.unsent_since;
   situation.linked = inputs.autopilot.linked;

@@ -15,10 +15,22 @@ void MotionInForce::adopt(const std::optional<Decision>& newest, std::uint64_t s
   if (!isKnown(alignment, newest)) return;
   decision_ = newest;
   sequence_ = sequence;
+  follow(alignment);
 }
 
 void MotionInForce::follow(const Alignment& alignment) {
-  if (isKnown(alignment, decision_)) anchor_ = *alignment.T_NED_W;
+  if (isKnown(alignment, decision_)) {
+    anchor_ = *alignment.T_NED_W;
+    contradicted_ = false;
+  } else if (alignment.verdict == AlignmentVerdict::kInconsistent) {
+    contradicted_ = true;
+  }
+}
+
+bool MotionInForce::anchorOutlives(const Alignment& alignment) const {
+  if (!decision_ || contradicted_) return false;
+  const bool silent = alignment.verdict == AlignmentVerdict::kUnknown && alignment.T_NED_W;
+  return silent || decision_->consumed.epoch != alignment.epoch;
 }
 
 }  // namespace nanomap

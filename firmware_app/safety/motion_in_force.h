@@ -28,10 +28,16 @@ class MotionInForce {
   /// T_NED_W of the decision's world. @pre there is a decision
   [[nodiscard]] const NedFromWorld& anchor() const { return anchor_; }
 
+  /// The anchor is of before, and still holds: the estimator has jumped since, and the poses' world is another; or the
+  /// autopilot no longer tells where it is. It does not once the two have told of different motions: then it is the
+  /// autopilot's own world that may have moved.
+  [[nodiscard]] bool anchorOutlives(const Alignment& alignment) const;
+
  private:
   std::optional<Decision> decision_;
   std::uint64_t sequence_ = 0;
   NedFromWorld anchor_;
+  bool contradicted_ = false;  ///< the anchor, by an alignment since
 };
 
 }  // namespace nanomap

@@ -154,6 +154,21 @@ TEST_F(CommanderInFlight, SilentAutopilotIsBrakedAlongThePlacesThatWereVerified)
   EXPECT_EQ(command.target.type_mask & 0b111, 0b111);
 }
 
+TEST_F(CommanderInFlight, SilenceAfterAJumpOfTheAutopilotDoesNotBringTheOldPlacesBack) {
+  CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 4.0));
+  (void)commander_.step(now_ += kStep, inputs);
+  inputs.alignment.T_NED_W = NedFromWorld(70.0 * kDeg, {105.0, -50.0, -3.0});
+  inputs.alignment.verdict = AlignmentVerdict::kInconsistent;
+  Command command = commander_.step(now_ += kStep, inputs);
+  EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
+  inputs.alignment.verdict = AlignmentVerdict::kUnknown;
+  command = commander_.step(now_ += kStep, inputs);
+  EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
+  inputs.alignment.epoch = 1;  // nor does a jump of the estimator, which tells nothing of the autopilot
+  command = commander_.step(now_ += kStep, inputs);
+  EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
+}
+
 // The estimator's world jumps by tens of metres and 40 degrees; the autopilot's does not.
 TEST_F(CommanderInFlight, JumpOfTheEstimatorNeverStepsTheSetpoint) {
   constexpr float kLargestStep_m = 0.15F;  // 4 m/s for a step, and what braking adds
