@@ -39,7 +39,7 @@ Commander::Commander(const SafetyParameters& parameters, const MotionLimits& lim
     : machine_(checked(parameters)), limits_(limits), heading_(max_yaw_rate_rad_s) {}
 
 bool isRefused(const CommandInputs& inputs) {
-  return inputs.recording && inputs.autopilot.linked && !inputs.autopilot.simulated;
+  return inputs.recording && !(inputs.autopilot.linked && inputs.autopilot.simulated);
 }
 
 Command Commander::step(Time now, const CommandInputs& inputs) {
@@ -81,7 +81,7 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs, bool pla
   }
   situation.unsent_since = inputs.unsent_since;
   situation.linked = inputs.autopilot.linked;
-  situation.live_refused = isRefused(inputs);
+  situation.live_refused = inputs.autopilot.linked && isRefused(inputs);
   situation.armed = inputs.autopilot.armed;
   situation.external_control = inputs.autopilot.external_control;
   situation.external_control_entries = inputs.autopilot.external_control_entries;

@@ -50,7 +50,8 @@ struct CommandedMotion {
   std::optional<std::uint64_t> decision;  ///< that it was sampled from, by the planner's count; empty for a hold
 };
 
-/// A live autopilot, and a recording to fly by: it is told nothing.
+/// A recording to fly by, and an autopilot that does not say now that it flies no real vehicle, or is not heard at all:
+/// it is told nothing.
 [[nodiscard]] bool isRefused(const CommandInputs& inputs);
 
 /// What goes to the autopilot.

@@ -91,6 +91,30 @@ TEST(Commander, SendsNothingWithoutAlignment) {
   EXPECT_TRUE(command.verdict.faults.has(Fault::kAlignment));
 }
 
+TEST(IsRefused, RecordingIsToldToASimulatedAutopilotThatIsHeardAndToNoOther) {
+  CommandInputs inputs;
+  EXPECT_FALSE(isRefused(inputs));
+  inputs.recording = true;
+  for (const bool linked : {false, true}) {
+    for (const bool simulated : {false, true}) {
+      inputs.autopilot.linked = linked;
+      inputs.autopilot.simulated = simulated;
+      EXPECT_EQ(isRefused(inputs), !(linked && simulated)) << linked << simulated;
+    }
+  }
+}
+
+TEST(Commander, RecordingWaitsForTheAutopilotBeforeItAsksForASimulatedOne) {
+  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0};
+  CommandInputs inputs = inputsAt(atMs(0), Vec3::Zero(), 0.0);
+  inputs.recording = true;
+  EXPECT_TRUE(commander.step(atMs(0), inputs).verdict.faults.has(Fault::kLive));
+  inputs.autopilot.linked = false;
+  const FaultSet faults = commander.step(atMs(20), inputs).verdict.faults;
+  EXPECT_TRUE(faults.has(Fault::kAutopilot));
+  EXPECT_FALSE(faults.has(Fault::kLive));
+}
+
 TEST_F(CommanderInFlight, SamplesTheMotionForTheMomentOfSending) {
   ASSERT_EQ(command_.verdict.state, State::kFlying);
   EXPECT_EQ(command_.status, SystemStatus::kActive);
