@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,10 @@ int run(const FlightArguments& arguments) {
   Reporter reporter({process, stages.hand_overs, network, link, recording ? &recording->recorder() : nullptr},
                     configuration.lcm.health_channel);
   reporter.run(signals);
+  if (from_network && process.sourceEnded()) {
+    throw std::runtime_error("LCM: nothing can be received on '" + network.url() +
+                             "' any more. Look whether its network interface is still there, and start again.");
+  }
   return 0;
 }
 

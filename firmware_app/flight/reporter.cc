@@ -18,6 +18,10 @@ constexpr Duration kRound = std::chrono::milliseconds(100);
 /// What is still under way when a log has ended needs no longer.
 constexpr Duration kAfterTheEnd = std::chrono::seconds(1);
 
+/// A brake takes two seconds, and two more if the vehicle is not seen to stand. The service manager waits for longer
+/// (TimeoutStopSec).
+constexpr Duration kLongestEnd = std::chrono::seconds(10);
+
 NamedCounters othersOf(const ReportedParts& parts) {
   const LinkCounters link = parts.link.counters();
   const LateFrames late = parts.process.lateFrames();
@@ -45,25 +49,39 @@ Reporter::Reporter(const ReportedParts& parts, std::string health_channel)
 void Reporter::run(const EndSignals& signals) {
   service_.ready();
   std::optional<Time> ended;
-  Time next = processNow();
   while (!signals.wait(kRound)) {
     const Time now = processNow();
-    monitor_.gather();
-    const auto stalls = parts_.process.takeStalls();
-    service_.signOfLife(parts_.process.allAnswer(), now);
-    if (!stalls.empty()) spdlog::error("{}", fmt::join(stalls, "; "));
-    if (now >= next) {
-      next = now + kHealthPeriod;
-      tell(now);
-    }
+    round(now);
     if (parts_.process.sourceEnded() && !ended) ended = now;
     if (ended && now - *ended >= kAfterTheEnd) {
-      spdlog::info("the log has ended");
+      spdlog::info("the source of messages has ended");
       break;
     }
   }
-  service_.stopping("stopped");
+  service_.stopping("ends");
+  endFlight(signals);
   spdlog::info("in all: {}", countersLine(monitor_.report(processNow(), others())));
+}
+
+void Reporter::round(Time now) {
+  monitor_.gather();
+  const auto stalls = parts_.process.takeStalls();
+  service_.signOfLife(parts_.process.allAnswer(), now);
+  if (!stalls.empty()) spdlog::error("{}", fmt::join(stalls, "; "));
+  if (now < next_tell_) return;
+  next_tell_ = now + kHealthPeriod;
+  tell(now);
+}
+
+/// An autopilot goes on by the last setpoint for a second or more: one that moves must not be the last.
+void Reporter::endFlight(const EndSignals& signals) {
+  parts_.hand_overs.ending.store(true, std::memory_order_relaxed);
+  const Time latest = processNow() + kLongestEnd;
+  const auto moves = [this] { return monitor_.state() == State::kFlying || monitor_.state() == State::kBraking; };
+  do {
+    if (signals.wait(kRound)) return;
+    round(processNow());
+  } while (moves() && processNow() < latest);
 }
 
 NamedCounters Reporter::others() {

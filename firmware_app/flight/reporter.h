@@ -31,10 +31,13 @@ class Reporter {
   /// Borrows the parts. @param health_channel  of the LCM network
   Reporter(const ReportedParts& parts, std::string health_channel);
 
-  /// Until one of the signals comes, or the source has ended.
+  /// Until one of the signals comes, or the source has ended; and until what is flown then has been braked to a
+  /// standstill, unless another signal comes.
   void run(const EndSignals& signals);
 
  private:
+  void round(Time now);
+  void endFlight(const EndSignals& signals);
   void tell(Time now);
   [[nodiscard]] NamedCounters others();
   void tellOfRecording(NamedCounters& others);
@@ -42,6 +45,7 @@ class Reporter {
   ReportedParts parts_;
   std::string health_channel_;
   HealthMonitor monitor_;
+  Time next_tell_{};
   ServiceManager service_;
   RecorderReport recording_;
   std::string recording_fault_told_;

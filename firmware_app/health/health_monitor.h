@@ -35,6 +35,9 @@ class HealthMonitor {
   /// What has been gathered; latencies begin anew. @param others  shown as they are
   [[nodiscard]] health_t report(Time now, const NamedCounters& others);
 
+  /// Of the last round of the sink that has been gathered.
+  [[nodiscard]] State state() const { return sink_.verdict.state; }
+
  private:
   enum Latency : std::size_t { kIndex, kChain, kPlan, kExposureToSetpoint, kLatencyCount };
 

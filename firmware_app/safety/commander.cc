@@ -66,6 +66,7 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs, bool pla
   situation.camera = vehicle.camera;
   situation.depth = vehicle.newest_view;
   situation.depth_stuck = vehicle.camera_stuck;
+  situation.ending = inputs.ending;
   situation.stalled = inputs.stalled;
   if (vehicle.state) {
     situation.pose = vehicle.state->stamp;

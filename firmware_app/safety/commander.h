@@ -37,6 +37,7 @@ struct CommandInputs {
   PlanReport plan;
   AutopilotState autopilot;
   Alignment alignment;
+  bool ending = false;               ///< this process has been told to end
   bool stalled = false;              ///< a thread of this process does not answer
   std::optional<Time> unsent_since;  ///< what should have been sent since then was refused
   bool recording = false;            ///< vehicle and plan are those of a recording: only a simulated autopilot is flown

@@ -4,6 +4,8 @@ namespace nanomap {
 
 std::string_view toString(Fault fault) {
   switch (fault) {
+    case Fault::kEnding:
+      return "leave to go on (it was told to end)";
     case Fault::kHeldUp:
       return "time to run (held up)";
     case Fault::kStalled:

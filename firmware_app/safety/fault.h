@@ -10,7 +10,8 @@ namespace nanomap {
 
 /// What keeps the vehicle from being flown by us, in the order in which it is worth being told.
 enum class Fault : std::uint8_t {
-  kHeldUp,      ///< this process did not run for a while
+  kEnding,      ///< this process has been told to end
+  kHeldUp,      ///< it did not run for a while
   kStalled,     ///< one of its threads does not answer
   kCamera,      ///< nobody has said yet what the camera is
   kDepth,       ///< no depth image, or too old a one
@@ -23,7 +24,7 @@ enum class Fault : std::uint8_t {
   kAlignment,   ///< T_NED_W is not known well enough
   kLive,        ///< what we see is a recording, and the autopilot flies a real vehicle
 };
-inline constexpr std::size_t kFaultCount = 12;
+inline constexpr std::size_t kFaultCount = 13;
 
 /// In a pilot's words, as what is missing: "depth images".
 [[nodiscard]] std::string_view toString(Fault fault);

@@ -50,6 +50,7 @@ SafetyVerdict StateMachine::step(const Situation& situation) {
 FaultSet StateMachine::faultsOf(const Situation& situation) const {
   const Time now = situation.now;
   FaultSet faults;
+  if (situation.ending) faults.add(Fault::kEnding);
   if (last_step_ && now - *last_step_ > parameters_.max_step) faults.add(Fault::kHeldUp);
   if (situation.stalled) faults.add(Fault::kStalled);
   if (!situation.camera) faults.add(Fault::kCamera);

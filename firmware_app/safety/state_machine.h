@@ -58,6 +58,7 @@ struct Situation {
   std::optional<Time> plan;       ///< what the last decision that may be flown, of the poses' world, was planned for
   std::optional<Time> brake_end;  ///< when the motion in force stands
   std::optional<double> speed_m_s;
+  bool ending = false;  ///< this process has been told to end
   bool stalled = false;
   bool anchored = false;  ///< T_NED_W is known well for the world that poses are in now
   /// Where the motion's world is in NED is known from before, and still holds: the estimator has jumped since, and the

@@ -62,6 +62,9 @@ struct HandOvers {
   Mailbox<SinkReport> sink_report;         ///< health
   SlotQueue<Duration> setpoint_latencies{512};
 
+  // who was told to end -> sink
+  std::atomic<bool> ending{false};
+
   // watchdog -> sink
   std::atomic<bool> stalled{false};
 

@@ -45,6 +45,7 @@ void SinkStage::run(Time now) {
   const bool planned = takeIn(now);
   inputs_.autopilot = link_.autopilot();
   inputs_.alignment = alignment_.alignment(now);
+  inputs_.ending = ports_.ending.load(std::memory_order_relaxed);
   inputs_.stalled = ports_.stalled.load(std::memory_order_relaxed);
 
   const Command command = commander_.step(now, inputs_);

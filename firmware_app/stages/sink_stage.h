@@ -61,6 +61,7 @@ struct SinkPorts {
   Mailbox<PlanReport>& plans;
   Mailbox<ChainSnapshot>& newest;
   std::atomic<bool>& flown;            ///< set: the vehicle is ours
+  const std::atomic<bool>& ending;     ///< this process has been told to end
   const std::atomic<bool>& stalled;    ///< a thread of this process does not answer
   SlotQueue<SentSetpoint>& setpoints;  ///< for the recorder
   Mailbox<SinkReport>& report;

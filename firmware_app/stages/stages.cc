@@ -45,8 +45,8 @@ Stages::Stages(const Configuration& configuration, Duration realtime_ahead, Auto
       plan(configuration.planner, configuration.safety.max_stamp_lead,
            {hand_overs.moments, hand_overs.flown, hand_overs.plans, hand_overs.decisions, hand_overs.newest_decision}),
       sink(sinkParameters(configuration), link,
-           {hand_overs.vehicle, hand_overs.plans, hand_overs.newest, hand_overs.flown, hand_overs.stalled,
-            hand_overs.setpoints, hand_overs.sink_report, hand_overs.setpoint_latencies}),
+           {hand_overs.vehicle, hand_overs.plans, hand_overs.newest, hand_overs.flown, hand_overs.ending,
+            hand_overs.stalled, hand_overs.setpoints, hand_overs.sink_report, hand_overs.setpoint_latencies}),
       depth_source_(hand_overs.frames, hand_overs.capture_bell) {}
 
 void Stages::capture(Duration at_most) {

@@ -181,6 +181,15 @@ class FaultFlight(FlightTest):
             flight.hand_over()
             self.await_speed(flight)
 
+    def test_process_told_to_end(self):
+        """It stands before its stream ends: an autopilot flies on by the last setpoint for a while."""
+        with self.in_flight(loss_s=0.3) as flight:
+            self.await_speed(flight)
+            self.assertEqual(flight.flight.end(), 0)
+            self.assertLess(speed_m_s(flight.pilot.messages(SETPOINT)[-1]), 0.1, self.what_happened(flight))
+            self.await_failsafe(flight)
+            self.assert_braked(flight, "told to end")
+
     def test_process_stopped_for_two_seconds(self):
         """Nothing that was meant for a moment before the stop is flown after it."""
         with self.in_flight(loss_s=0.3) as flight:

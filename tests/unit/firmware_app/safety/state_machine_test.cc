@@ -304,6 +304,7 @@ const FaultCase kFaultCases[] = {
     {"PlannerOff", [](Situation& s, Time began) { s.plan = began; }, Fault::kPlan, std::chrono::milliseconds(150),
      Stream::kMotion},
     {"PlannerLate", [](Situation& s, Time) { s.plan = s.now - kSecond; }, Fault::kPlan, kAtOnce, Stream::kMotion},
+    {"ToldToEnd", [](Situation& s, Time) { s.ending = true; }, Fault::kEnding, kAtOnce, Stream::kMotion},
     {"ThreadStalled", [](Situation& s, Time) { s.stalled = true; }, Fault::kStalled, kAtOnce, Stream::kMotion},
     {"AutopilotGone", [](Situation& s, Time) { s.linked = false; }, Fault::kAutopilot, kAtOnce, Stream::kMotion},
     {"EstimatorJumped",
