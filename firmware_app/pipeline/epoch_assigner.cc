@@ -8,13 +8,17 @@ namespace {
 /// Between poses stamped almost together, this much is the estimator's noise and no speed.
 constexpr double kNoise_m = 0.05;
 
+/// A pose that is older than the newest by more has not come late: the newest was of another clock, or the clock has
+/// been set back. To wait until it is passed would be to see no jump until then.
+constexpr Duration kLatest = std::chrono::seconds(1);
+
 }  // namespace
 
 std::uint32_t EpochAssigner::assign(Time stamp, const Pose& T_W_B, std::uint32_t sent_epoch) {
   if (max_speed_m_s_ == 0.0 || checkPose(T_W_B) != PoseVerdict::kAccepted) return epochOf(sent_epoch);
   if (newest_ && sent_epoch < newest_->sent_epoch) return epochOf(sent_epoch);
   const Newest pose{stamp, sent_epoch, T_W_B.translation_m};
-  if (!newest_ || sent_epoch > newest_->sent_epoch) {
+  if (!newest_ || sent_epoch > newest_->sent_epoch || newest_->stamp - stamp > kLatest) {
     newest_ = pose;
     return epochOf(sent_epoch);
   }

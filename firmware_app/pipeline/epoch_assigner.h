@@ -17,7 +17,8 @@ class EpochAssigner {
   explicit EpochAssigner(double max_speed_m_s) : max_speed_m_s_(max_speed_m_s) {}
 
   /// The epoch of the next pose as it comes in. One that arrives late belongs to the newest world if it can be reached
-  /// from there, else to the one before; one that is no pose at all (NaN) changes nothing.
+  /// from there, else to the one before; later by more than a second it is what is compared with from then on. One that
+  /// is no pose at all (NaN) changes nothing.
   [[nodiscard]] std::uint32_t assign(Time stamp, const Pose& T_W_B, std::uint32_t sent_epoch = 0);
 
   /// The epoch of what is no pose (a correction, a goal) and comes in now.

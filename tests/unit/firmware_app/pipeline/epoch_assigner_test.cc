@@ -87,6 +87,14 @@ TEST(EpochAssigner, PoseThatIsNotFiniteChangesNothing) {
   EXPECT_EQ(epochs.assign(at(30), placed(0.3)), 0U);
 }
 
+TEST(EpochAssigner, JumpIsSeenAfterAPoseOfAnotherClock) {
+  EpochAssigner epochs(kMaxSpeed_m_s);
+  EXPECT_EQ(epochs.assign(at(0), placed(0.0)), 0U);
+  EXPECT_EQ(epochs.assign(at(3'600'000), placed(0.1)), 0U);
+  EXPECT_EQ(epochs.assign(at(10), placed(0.2)), 0U);
+  EXPECT_EQ(epochs.assign(at(20), placed(5.0)), 1U);
+}
+
 TEST(EpochAssigner, ZeroSwitchesItOff) {
   EpochAssigner epochs(0.0);
   EXPECT_EQ(epochs.assign(at(0), placed(0.0)), 0U);
