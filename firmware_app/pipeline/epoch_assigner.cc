@@ -16,8 +16,13 @@ constexpr Duration kLatest = std::chrono::seconds(1);
 
 std::uint32_t EpochAssigner::assign(Time stamp, const Pose& T_W_B, std::uint32_t sent_epoch) {
   if (max_speed_m_s_ == 0.0 || checkPose(T_W_B) != PoseVerdict::kAccepted) return epochOf(sent_epoch);
-  if (newest_ && sent_epoch < newest_->sent_epoch) return epochOf(sent_epoch);
   const Newest pose{stamp, sent_epoch, T_W_B.translation_m};
+  if (newest_ && sent_epoch < newest_->sent_epoch) {
+    if (stamp <= newest_->stamp) return epochOf(sent_epoch);
+    jumps_ += newest_->sent_epoch - sent_epoch + 1;
+    newest_ = pose;
+    return epochOf(sent_epoch);
+  }
   if (!newest_ || sent_epoch > newest_->sent_epoch || newest_->stamp - stamp > kLatest) {
     newest_ = pose;
     return epochOf(sent_epoch);

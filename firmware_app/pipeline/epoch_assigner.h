@@ -8,7 +8,8 @@ namespace nanomap {
 
 /// Epochs for a pose stream as NanoMap needs them: raised whenever the estimator's world jumps, so that nothing is
 /// subtracted across it. What the sender says counts (nanomap.body_pose_t; bot_core.pose_t is always in epoch 0), and a
-/// step faster than the vehicle can be is a jump that the sender did not tell, and raises every epoch from then on.
+/// step faster than the vehicle can be is a jump that the sender did not tell, and raises every epoch from then on. So
+/// does a sender that counts less than before and has not come late: it has started anew, in a world of its own.
 /// A single wrong pose far away costs two epochs: nothing tells it from two jumps.
 /// Threads: one. Allocates: no.
 class EpochAssigner {

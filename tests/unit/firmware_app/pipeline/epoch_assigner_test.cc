@@ -79,6 +79,15 @@ TEST(EpochAssigner, LatePoseOfAnOlderSentEpochChangesNothing) {
   EXPECT_EQ(epochs.assign(at(30), placed(50.0), 4), 4U);
 }
 
+TEST(EpochAssigner, SenderThatStartsAnewIsInTheNextEpoch) {
+  EpochAssigner epochs(kMaxSpeed_m_s);
+  EXPECT_EQ(epochs.assign(at(0), placed(0.0), 3), 3U);
+  EXPECT_EQ(epochs.assign(at(1000), placed(0.0), 0), 4U);
+  EXPECT_EQ(epochs.epochOf(0), 4U);
+  EXPECT_EQ(epochs.assign(at(1010), placed(0.1), 0), 4U);
+  EXPECT_EQ(epochs.assign(at(1020), placed(50.0), 1), 5U);
+}
+
 TEST(EpochAssigner, PoseThatIsNotFiniteChangesNothing) {
   EpochAssigner epochs(kMaxSpeed_m_s);
   EXPECT_EQ(epochs.assign(at(0), placed(0.0)), 0U);
