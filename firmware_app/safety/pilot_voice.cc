@@ -20,6 +20,7 @@ PilotText textOf(const SafetyVerdict& verdict) {
     case State::kWaiting:
       return {Severity::kWarning, "NanoMap waits for: " + verdict.faults.words()};
     case State::kReady:
+      if (verdict.old_switch) return {Severity::kNotice, "NanoMap ready: leave OFFBOARD or GUIDED, and switch again"};
       return {Severity::kInfo, "NanoMap ready: switch to OFFBOARD or GUIDED"};
     case State::kFlying:
       return {Severity::kNotice, "NanoMap flies"};
@@ -49,9 +50,10 @@ std::optional<PilotText> PilotVoice::ofState(Time now, const SafetyVerdict& verd
     const bool same_state = told_->state == verdict.state;
     const bool waiting = verdict.state == State::kWaiting;
     const bool other_words = waiting && told_->faults != verdict.faults && now - told_at_ >= kWaitingHurry;
+    const bool other_switch = told_->old_switch != verdict.old_switch;
     const bool worse = verdict.critical && !told_->critical;
     const bool due = waiting && now - told_at_ >= kReminder;
-    if (same_state && !other_words && !worse && !due) return std::nullopt;
+    if (same_state && !other_words && !other_switch && !worse && !due) return std::nullopt;
   }
   told_ = verdict;
   told_at_ = now;

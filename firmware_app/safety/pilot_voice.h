@@ -29,7 +29,7 @@ class PilotVoice {
   [[nodiscard]] std::optional<PilotText> ofState(Time now, const SafetyVerdict& verdict);
   [[nodiscard]] std::optional<PilotText> ofReason(Time now, const SafetyVerdict& verdict, Reason reason);
 
-  std::optional<SafetyVerdict> told_;  ///< state, faults and criticality as last told
+  std::optional<SafetyVerdict> told_;  ///< as last told
   Time told_at_{};
   Reason reason_ = Reason::kFlying;
   Time reason_since_{};

@@ -44,7 +44,8 @@ SafetyVerdict StateMachine::step(const Situation& situation) {
   follow(situation);
   entries_seen_ = situation.external_control_entries;
   const bool critical = fault_since_ && situation.now - *fault_since_ >= parameters_.critical_after;
-  return {state_, stream(situation), faults_, critical || state_ == State::kLost};
+  const bool old_switch = state_ == State::kReady && situation.external_control && !ordered_;
+  return {state_, stream(situation), faults_, critical || state_ == State::kLost, old_switch};
 }
 
 FaultSet StateMachine::faultsOf(const Situation& situation) const {

@@ -78,7 +78,8 @@ struct SafetyVerdict {
   State state = State::kWaiting;
   Stream stream = Stream::kNone;
   FaultSet faults;
-  bool critical = false;  ///< a fault in flight has lasted for `critical_after`
+  bool critical = false;    ///< a fault in flight has lasted for `critical_after`
+  bool old_switch = false;  ///< Ready, and in external control by a switch that is no order: only another one is
 };
 
 /// The table above, driven by the situation's own time. Threads: one. Allocates: no.

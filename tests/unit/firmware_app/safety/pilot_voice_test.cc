@@ -55,6 +55,17 @@ TEST(PilotVoice, EveryChangeOfStateIsSaidOnce) {
   EXPECT_EQ(lost->severity, Severity::kCritical);
 }
 
+TEST(PilotVoice, SwitchThatIsNoOrderIsToBeMadeAgain) {
+  PilotVoice voice;
+  SafetyVerdict ready = verdict(State::kReady);
+  ready.old_switch = true;
+  EXPECT_EQ(voice.step(atMs(0), ready, Reason::kNoGoal)->text,
+            "NanoMap ready: leave OFFBOARD or GUIDED, and switch again");
+  EXPECT_FALSE(voice.step(atMs(20), ready, Reason::kNoGoal));
+  ready.old_switch = false;
+  EXPECT_EQ(voice.step(atMs(40), ready, Reason::kNoGoal)->text, "NanoMap ready: switch to OFFBOARD or GUIDED");
+}
+
 TEST(PilotVoice, SettlingIsNotSaid) {
   PilotVoice voice;
   EXPECT_TRUE(voice.step(atMs(0), verdict(State::kBraking, {Fault::kPlan}), Reason::kFlying));

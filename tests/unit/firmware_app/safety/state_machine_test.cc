@@ -87,9 +87,13 @@ TEST(StateMachine, IsReadyOnceNothingIsMissingForAWhile) {
 TEST(StateMachine, FliesOnlyAfterASwitchThatItHasSeen) {
   Machine machine;
   const auto in_offboard_from_the_first = [](Situation& s) { s.external_control = true; };
-  EXPECT_EQ(machine.run(5 * kSecond, in_offboard_from_the_first).state, State::kReady);
-  machine.run(kSecond, [](Situation&) {});
-  EXPECT_EQ(machine.step(Machine::ordered).state, State::kFlying);
+  const SafetyVerdict from_the_first = machine.run(5 * kSecond, in_offboard_from_the_first);
+  EXPECT_EQ(from_the_first.state, State::kReady);
+  EXPECT_TRUE(from_the_first.old_switch);
+  EXPECT_FALSE(machine.run(kSecond, [](Situation&) {}).old_switch);
+  const SafetyVerdict switched = machine.step(Machine::ordered);
+  EXPECT_EQ(switched.state, State::kFlying);
+  EXPECT_FALSE(switched.old_switch);
 }
 
 TEST(StateMachine, SwitchBeforeItWasReadyIsNoOrder) {
@@ -116,6 +120,7 @@ TEST(StateMachine, OrderOnTheGroundWaitsForArming) {
   const SafetyVerdict verdict = machine.run(5 * kSecond, disarmed);
   EXPECT_EQ(verdict.state, State::kReady);
   EXPECT_EQ(verdict.stream, Stream::kHold);
+  EXPECT_FALSE(verdict.old_switch);
   EXPECT_EQ(machine.step(Machine::ordered).state, State::kFlying);
 }
 
