@@ -89,6 +89,9 @@ TEST_P(FaultMatrix, IsAnsweredAsTheTableSays) {
 }
 
 // Limits: the age at which a stream is stale, one sending of it, and one round of the sink.
+// A planner's garbage are motions that no vehicle can fly, a sink's are setpoints that the link refuses, as it does
+// with what is not finite. Not here: a sink that is off or stuck (below); a clock that is off, which no stamp can come
+// from; a sound motion that begins elsewhere, which is not told from one that begins anew where the vehicle is.
 const Case kCases[] = {
     {Broken::kDepth, How::kOff, 240ms, State::kLost},
     {Broken::kDepth, How::kStuck, 240ms, State::kLost},
