@@ -23,6 +23,8 @@ const AlignmentParameters& checked(const AlignmentParameters& parameters) {
   require(parameters.min_pairs >= 2, "min_pairs", "be at least 2");
   require(parameters.window / parameters.min_spacing >= static_cast<std::int64_t>(parameters.min_pairs), "window",
           "hold at least min_pairs pairs at min_spacing");
+  require(parameters.place_window > parameters.min_spacing && parameters.place_window <= parameters.window,
+          "place_window", "lie between min_spacing and window");
   require(parameters.max_age > parameters.min_spacing, "max_age", "exceed min_spacing");
   require(parameters.max_position_residual_m > 0.0 && parameters.max_heading_residual_rad > 0.0, "max_..._residual",
           "be positive");
@@ -146,12 +148,13 @@ void AlignmentEstimator::startAnew(std::uint32_t epoch) {
 void AlignmentEstimator::follow(Duration elapsed) {
   const bool enough = window_.size() >= parameters_.min_pairs;
   if (!enough && !after_jump_) return;
-  const NedFromWorld fit = fitAlignment(window_, parameters_.weights);
+  const NedFromWorld of_window = fitAlignment(window_, parameters_.weights);
+  const NedFromWorld fit = placedByNewest(window_, of_window.heading_rad(), parameters_.place_window);
+  // About the vehicle: a turn about W's origin would throw a setpoint far from it.
+  const Vec3& at_W = window_.back().position_W_m;
   if (!T_NED_W_ || after_jump_) {
     T_NED_W_ = fit;
   } else {
-    // About the vehicle: a turn about W's origin would throw a setpoint far from it.
-    const Vec3& at_W = window_.back().position_W_m;
     const double most_rad = parameters_.follow_rad_s * toSeconds(elapsed);
     const double turn_rad = std::clamp(wrapAngle(fit.heading_rad() - T_NED_W_->heading_rad()), -most_rad, most_rad);
     const double heading_rad = T_NED_W_->heading_rad() + turn_rad;
@@ -160,7 +163,9 @@ void AlignmentEstimator::follow(Duration elapsed) {
     const Vec3 vehicle_NED = T_NED_W_->point(at_W) + share * shift_m;
     T_NED_W_ = NedFromWorld(heading_rad, vehicle_NED - NedFromWorld(heading_rad, Vec3::Zero()).point(at_W));
   }
-  residuals_ = medianResiduals(window_, *T_NED_W_);
+  const AlignmentResiduals unexplained = medianResiduals(window_, of_window);
+  residuals_ = {std::max(unexplained.position_m, (fit.point(at_W) - T_NED_W_->point(at_W)).norm()),
+                std::max(unexplained.heading_rad, std::abs(wrapAngle(fit.heading_rad() - T_NED_W_->heading_rad())))};
   // A jump is told against what the window says, which a few pairs do not.
   if (enough) {
     fit_ = fit;

@@ -15,9 +15,10 @@
 namespace nanomap {
 
 struct AlignmentParameters {
-  Duration window = std::chrono::seconds(10);
-  Duration min_spacing = std::chrono::milliseconds(50);  ///< between the pairs of the window
-  std::size_t min_pairs = 20;                            ///< fewer say nothing
+  Duration window = std::chrono::seconds(10);              ///< for the heading, and whether the streams fit
+  Duration place_window = std::chrono::milliseconds(500);  ///< for the place: drift is followed, noise is not
+  Duration min_spacing = std::chrono::milliseconds(50);    ///< between the pairs of the window
+  std::size_t min_pairs = 20;                              ///< fewer say nothing
   /// Of the newest pair. An estimator that is reset in silence moves what we send unseen, so this is no longer than a
   /// fault takes to become critical; and 25 times the interval that poses are asked for at, so that a link may lose
   /// half of them and pause for 0.3 s.
@@ -45,7 +46,8 @@ enum class AlignmentVerdict : std::uint8_t {
 struct Alignment {
   AlignmentVerdict verdict = AlignmentVerdict::kUnknown;
   std::optional<NedFromWorld> T_NED_W;  ///< empty before the first minimum of pairs, and after a new epoch
-  double position_residual_m = 0.0;     ///< medians of how far the window's pairs are off it
+  /// How far the window's pairs are off what explains them best, in the median, or T_NED_W is off that: the larger.
+  double position_residual_m = 0.0;
   double heading_residual_rad = 0.0;
   std::size_t pairs = 0;
   std::uint32_t epoch = 0;  ///< of W
@@ -61,8 +63,9 @@ struct AlignmentCounters {
 };
 
 /// Estimates T_NED_W from both estimators' poses over a sliding window: heading from both attitudes and, the more the
-/// vehicle has moved, from both tracks. What it gives follows the window's answer slowly, so that setpoints are not
-/// stepped; after a jump of either estimator it starts anew from the poses since, and says so.
+/// vehicle has moved, from both tracks; the place from the newest poses only, because one of the worlds drifts. What it
+/// gives follows that answer slowly, so that setpoints are not stepped; after a jump of either estimator it starts anew
+/// from the poses since, and says so.
 /// Pure: time comes with the data. Allocates at construction, and scratch memory for each pair. Threads: one.
 class AlignmentEstimator {
  public:
@@ -95,9 +98,9 @@ class AlignmentEstimator {
   std::uint64_t jumps_ = 0;
   std::optional<Time> last_jump_;
   Time unsettled_until_{};               ///< jumps that follow each other are no jumps: the streams do not fit
-  std::optional<NedFromWorld> fit_;      ///< of the window
+  std::optional<NedFromWorld> fit_;      ///< of the window, placed by its newest
   std::optional<NedFromWorld> T_NED_W_;  ///< given out
-  AlignmentResiduals residuals_;         ///< of the window against what is given out
+  AlignmentResiduals residuals_;         ///< as in Alignment
   AlignmentCounters counters_;
 };
 

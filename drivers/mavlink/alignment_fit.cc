@@ -17,10 +17,12 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+/// Of the pairs from `first` on. @pre there is one
 template <class Value>
-double medianOf(const RingBuffer<AlignmentPair>& pairs, Value&& value) {
-  std::vector<double> values(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) values[i] = value(pairs[i]);
+double medianOf(const RingBuffer<AlignmentPair>& pairs, Value&& value, std::size_t first = 0) {
+  std::vector<double> values;
+  values.reserve(pairs.size() - first);
+  for (std::size_t i = first; i < pairs.size(); ++i) values.push_back(value(pairs[i]));
   return median(values);
 }
 
@@ -33,13 +35,15 @@ double headingByAttitude(const RingBuffer<AlignmentPair>& pairs) {
          medianOf(pairs, [&](const AlignmentPair& pair) { return wrapAngle(of(pair) - reference_rad); });
 }
 
-Vec3 medianTranslation(const RingBuffer<AlignmentPair>& pairs, double heading_rad) {
+Vec3 medianTranslation(const RingBuffer<AlignmentPair>& pairs, double heading_rad, std::size_t first = 0) {
   const NedFromWorld turned(heading_rad, Vec3::Zero());
+  const auto offset_m = [&](const AlignmentPair& pair) -> Vec3 {
+    return pair.position_NED_m - turned.point(pair.position_W_m);
+  };
   Vec3 translation_m;
   for (int axis = 0; axis < 3; ++axis) {
-    translation_m[axis] = medianOf(pairs, [&](const AlignmentPair& pair) {
-      return pair.position_NED_m[axis] - turned.point(pair.position_W_m)[axis];
-    });
+    translation_m[axis] = medianOf(
+        pairs, [&](const AlignmentPair& pair) { return offset_m(pair)[axis]; }, first);
   }
   return translation_m;
 }
@@ -94,6 +98,12 @@ NedFromWorld fitAlignment(const RingBuffer<AlignmentPair>& pairs, const Alignmen
     T_NED_W = NedFromWorld(heading_rad, medianTranslation(pairs, heading_rad));
   }
   return T_NED_W;
+}
+
+NedFromWorld placedByNewest(const RingBuffer<AlignmentPair>& pairs, double heading_rad, Duration window) {
+  std::size_t first = pairs.size() - 1;
+  while (first > 0 && pairs.back().stamp - pairs[first - 1].stamp <= window) --first;
+  return {heading_rad, medianTranslation(pairs, heading_rad, first)};
 }
 
 AlignmentResiduals residualsOf(const AlignmentPair& pair, const NedFromWorld& T_NED_W) {

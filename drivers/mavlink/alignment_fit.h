@@ -28,6 +28,10 @@ struct AlignmentWeights {
 /// @pre at least one pair
 [[nodiscard]] NedFromWorld fitAlignment(const RingBuffer<AlignmentPair>& pairs, const AlignmentWeights& weights);
 
+/// T_NED_W of that heading, placed as the pairs of the newest `window` say in the median: where a world that drifts is
+/// now, and not where it was half a window ago. @pre at least one pair
+[[nodiscard]] NedFromWorld placedByNewest(const RingBuffer<AlignmentPair>& pairs, double heading_rad, Duration window);
+
 struct AlignmentResiduals {
   double position_m = 0.0;
   double heading_rad = 0.0;

@@ -54,7 +54,8 @@ struct MavlinkParameters {
   LinkParameters link;
   AlignmentParameters alignment;
   double setpoint_rate_hz = 50.0;
-  bool send_obstacles = true;  ///< OBSTACLE_DISTANCE
+  Duration setpoint_lead = std::chrono::milliseconds(25);  ///< from sending one to when it is acted on, in the mean
+  bool send_obstacles = true;                              ///< OBSTACLE_DISTANCE
   ObstacleBand obstacle_band;
   bool send_odometry = false;  ///< ODOMETRY: the autopilot flies by our estimator
   OdometrySpread odometry;

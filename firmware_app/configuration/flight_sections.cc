@@ -27,6 +27,11 @@ Section mavlinkSection() {
        numberKey(
            "setpoint_rate_hz", "How often it is told where to fly.", {20.0, 400.0},
            [](auto& c) -> auto& { return c.mavlink.setpoint_rate_hz; }),
+       durationKey(
+           "setpoint_lead_s",
+           "A setpoint is the motion's place so much later than it is sent: half a period until the next one, the way\n"
+           "there and the autopilot's own period, or the vehicle is that time behind.",
+           {0.0, 0.2}, [](auto& c) -> auto& { return c.mavlink.setpoint_lead; }),
        booleanKey(
            "send_obstacles", "Send OBSTACLE_DISTANCE: the nearest obstacles of the newest depth frame, by bearing.",
            [](auto& c) -> auto& { return c.mavlink.send_obstacles; }),
@@ -60,8 +65,11 @@ Section alignmentSection() {
   return {"alignment",
           "Where the estimator's world is in the autopilot's, from both pose streams. Without it nothing is flown.",
           {durationKey(
-               "window_s", "Of the poses that are compared.", kDuration_s,
+               "window_s", "Of the poses that are compared: for the heading, and whether they fit.", kDuration_s,
                [](auto& c) -> auto& { return c.mavlink.alignment.window; }),
+           durationKey(
+               "place_window_s", "Of those that tell the place, which drifts; not above window_s.", kDuration_s,
+               [](auto& c) -> auto& { return c.mavlink.alignment.place_window; }),
            integerKey(
                "min_pairs", "Fewer pairs of poses, one each 50 ms, say nothing.", {3, 1000},
                [](auto& c) -> auto& { return c.mavlink.alignment.min_pairs; }),

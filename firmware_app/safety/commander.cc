@@ -35,8 +35,9 @@ LocalNedTarget toNed(Time now, const CommandedMotion& commanded, const NedFromWo
 
 }  // namespace
 
-Commander::Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s)
-    : machine_(checked(parameters)), limits_(limits), heading_(max_yaw_rate_rad_s) {}
+Commander::Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s,
+                     Duration setpoint_lead)
+    : machine_(checked(parameters)), limits_(limits), heading_(max_yaw_rate_rad_s), setpoint_lead_(setpoint_lead) {}
 
 bool isRefused(const CommandInputs& inputs) {
   return inputs.recording && !(inputs.autopilot.linked && inputs.autopilot.simulated);
@@ -104,7 +105,8 @@ std::optional<CommandedMotion> Commander::motion(Time now, Stream stream, const 
     beginHeading(now, *state);
   }
   const double yaw_W_rad = heading_.follow(now, decision.yaw_W_rad);
-  return CommandedMotion{decision.brake.sample(now), yaw_W_rad, stream == Stream::kMotion, in_force_.sequence()};
+  return CommandedMotion{decision.brake.sample(now + setpoint_lead_), yaw_W_rad, stream == Stream::kMotion,
+                         in_force_.sequence()};
 }
 
 void Commander::beginHeading(Time now, const VehicleState& state) {

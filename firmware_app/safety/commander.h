@@ -65,14 +65,16 @@ struct Command {
 };
 
 /// Makes the setpoint of each moment: the state machine says which stream, the motion in force where to. A setpoint is
-/// never repeated; each is sampled for its own moment.
+/// never repeated; each is sampled for its own moment, which is when the autopilot acts on it.
 /// A function of what it was given, in that order. Threads: one. Allocates: no.
 class Commander {
  public:
   /// @param limits              of every motion that is flown
   /// @param max_yaw_rate_rad_s  how fast the heading handed out turns
+  /// @param setpoint_lead       from a setpoint to when it is acted on
   /// @throws std::invalid_argument naming the parameter that is wrong
-  Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s);
+  Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s,
+            Duration setpoint_lead);
 
   [[nodiscard]] Command step(Time now, const CommandInputs& inputs);
 
@@ -90,6 +92,7 @@ class Commander {
   MotionInForce in_force_;
   HeadingLimiter heading_;
   std::uint32_t heading_epoch_ = 0;  ///< of the world that it is in
+  Duration setpoint_lead_;
 };
 
 }  // namespace nanomap

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "tests/unit/drivers/mavlink/alignment_pairs.h"
 
@@ -107,6 +108,32 @@ TEST(AlignmentEstimator, FollowsASmallCorrectionSlowly) {
   EXPECT_LE(flight.largest_step_m, 0.2 * 0.06 + 1e-9);  // 0.2 m/s, a pair every 60 ms
 }
 
+TEST(AlignmentEstimator, IsWhereADriftingWorldIsNow) {
+  Flight flight;
+  flight.fly(10s);
+  constexpr double kDrift_m_s = 0.1;
+  for (int i = 0; i < 1000; ++i) {
+    flight.estimators.T_Wgiven_W.translation_m.x() += kDrift_m_s * 0.01;
+    flight.fly(10ms);
+  }
+  EXPECT_EQ(flight.result().verdict, AlignmentVerdict::kGood);
+  EXPECT_EQ(flight.result().jumps, 0U);
+  EXPECT_LT(flight.errorAtVehicle(), 0.1);  // half a window ago it was half a metre away
+}
+
+TEST(AlignmentEstimator, SaysHowFarWhatItGivesIsBehindWhatItKnows) {
+  Flight flight;
+  flight.fly(10s);
+  flight.estimators.T_Wgiven_W.translation_m.x() = 0.9;  // below a jump
+  flight.fly(1s);
+  EXPECT_EQ(flight.result().jumps, 0U);
+  EXPECT_GT(flight.errorAtVehicle(), 0.6);
+  EXPECT_GT(flight.result().position_residual_m, 0.5);
+  EXPECT_EQ(flight.result().verdict, AlignmentVerdict::kInconsistent);
+  flight.fly(5s);
+  EXPECT_EQ(flight.result().verdict, AlignmentVerdict::kGood);
+}
+
 TEST(AlignmentEstimator, SaysThatOneHasJumpedAndStartsAnew) {
   Flight flight;
   flight.fly(10s);
@@ -184,14 +211,17 @@ TEST(AlignmentEstimator, CountsPosesThatAreOfNoUse) {
 }
 
 TEST(AlignmentEstimator, NamesAParameterThatCannotBe) {
-  AlignmentParameters parameters;
-  parameters.min_pairs = 1000;
-  try {
-    const AlignmentEstimator estimator(parameters);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("window"));
-  }
+  const auto complaintOf = [](const AlignmentParameters& parameters) -> std::string {
+    try {
+      const AlignmentEstimator estimator(parameters);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaintOf({.min_pairs = 1000}), testing::HasSubstr("window"));
+  EXPECT_THAT(complaintOf({.place_window = 10ms}), testing::HasSubstr("place_window"));
+  EXPECT_THAT(complaintOf({.place_window = 11s}), testing::HasSubstr("place_window"));
 }
 
 }  // namespace

@@ -75,6 +75,19 @@ TEST(AlignmentFit, TrustsLongTracksMoreThanACompass) {
   EXPECT_GT(headingError(fitAlignment(circle, {.position_sigma_m = 100.0})), 0.099);
 }
 
+TEST(AlignmentFit, IsPlacedByTheNewestPairsAlone) {
+  TwoEstimators estimators;
+  auto window = windowOf(estimators);
+  const Vec3 drifted_m(0.4, -0.3, 0.2);
+  for (std::size_t i = window.size() - 11; i < window.size(); ++i) window[i].position_NED_m += drifted_m;
+  const Vec3 truth_m = trueAlignment().pose().translation_m;
+  const auto placed = [&](Duration newest) { return placedByNewest(window, test::kHeading_rad, newest); };
+  EXPECT_LT((placed(500ms).pose().translation_m - (truth_m + drifted_m)).norm(), 1e-9);
+  EXPECT_LT((placed(0ms).pose().translation_m - (truth_m + drifted_m)).norm(), 1e-9);  // one pair is enough
+  EXPECT_LT((placed(10s).pose().translation_m - truth_m).norm(), 1e-9);
+  EXPECT_LT(headingError(placed(500ms)), 1e-9);
+}
+
 TEST(AlignmentFit, OfHeadingsAroundSouthDoesNotAverageAcrossTheWrap) {
   TwoEstimators estimators;
   estimators.T_NED_W = NedFromWorld(std::numbers::pi, Vec3::Zero());
