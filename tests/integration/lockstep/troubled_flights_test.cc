@@ -23,7 +23,7 @@ class TroubledFlights : public testing::Test {
   }
 
   LockstepFlight fly(Duration duration, const SensorFaultPlanParameters& faults) {
-    LockstepFlight flight = flyInLockstep({}, generate::SensedFlight(options_), duration, faults);
+    LockstepFlight flight = flyInLockstep(configuration_, generate::SensedFlight(options_), duration, faults);
     fmt::print("{}", tableOf(options_.scene, {flight}));
     return flight;
   }
@@ -35,13 +35,14 @@ class TroubledFlights : public testing::Test {
     EXPECT_GT(flight.meanSpeed_m_s(), kHalfOfTheUsual_m_s);
   }
 
+  Configuration configuration_;
   generate::SensedFlightOptions options_;
 };
 
-/// A hundredth of the way in every direction, corrected once a second.
+/// A hundredth of the way, as the configuration knows, corrected once a second.
 TEST_F(TroubledFlights, DriftOfOnePercentIsFlownThroughToTheGoal) {
-  constexpr double kMetresIn5s = 0.35;  // at 7 m/s
-  options_.vio.drift = {.horizontal_std_m = kMetresIn5s, .vertical_std_m = kMetresIn5s, .after = 5s};
+  configuration_.chain.drift.horizontal_std_m = 0.35;  // in 5 s, at 7 m/s
+  options_.vio.drift = configuration_.chain.drift;
   options_.correction_hz = 1.0;
   const LockstepFlight flight = fly(60s, {});
   expectSwiftlyAtTheGoal(flight);
