@@ -10,7 +10,7 @@ constexpr double kNoise_m = 0.05;
 
 /// A pose that is older than the newest by more has not come late: the newest was of another clock, or the clock has
 /// been set back. To wait until it is passed would be to see no jump until then.
-constexpr Duration kLatest = std::chrono::seconds(1);
+constexpr Duration kGreatestLateness = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -23,7 +23,7 @@ std::uint32_t EpochAssigner::assign(Time stamp, const Pose& T_W_B, std::uint32_t
     newest_ = pose;
     return epochOf(sent_epoch);
   }
-  if (!newest_ || sent_epoch > newest_->sent_epoch || newest_->stamp - stamp > kLatest) {
+  if (!newest_ || sent_epoch > newest_->sent_epoch || newest_->stamp - stamp > kGreatestLateness) {
     newest_ = pose;
     return epochOf(sent_epoch);
   }
