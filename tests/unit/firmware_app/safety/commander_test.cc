@@ -226,7 +226,8 @@ TEST_F(CommanderInFlight, JumpOfTheEstimatorNeverStepsTheSetpoint) {
     ASSERT_TRUE(command.motion) << command.verdict.faults.words();
     if (last) {
       EXPECT_LE((command.target.position_NED_m - last->position_NED_m).norm(), kLargestStep_m);
-      EXPECT_LE(std::abs(wrapAngle(command.target.yaw_NED_rad - last->yaw_NED_rad)), kLargestTurn_rad);
+      const auto turn_rad = static_cast<double>(command.target.yaw_NED_rad - last->yaw_NED_rad);
+      EXPECT_LE(std::abs(wrapAngle(turn_rad)), kLargestTurn_rad);
     }
     last = command.target;
     new_world_flown |= command.verdict.state == State::kFlying && commander_.inForce()->consumed.epoch == 1;
