@@ -1,4 +1,3 @@
-#include <cstddef>
 #include <limits>
 
 #include "drivers/lcm/convert.h"
@@ -7,11 +6,8 @@
 namespace nanomap {
 
 Converted<CameraParameters> toCameraParameters(const camera_model_t& message) {
-  if (message.width < 0 || message.height < 0) return ConvertFault::kBadSize;
-  // Storage for views is made by these numbers, and a thread in real time would die of it.
-  if (static_cast<std::size_t>(message.width) * static_cast<std::size_t>(message.height) > kMaxImagePixels) {
-    return ConvertFault::kBadSize;
-  }
+  // Storage for views is made by these numbers, and a thread in real time would die of what is absurd.
+  if (!isImageSize(message.width, message.height)) return ConvertFault::kBadSize;
 
   CameraParameters parameters;
   parameters.width_px = message.width;

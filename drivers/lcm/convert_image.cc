@@ -27,10 +27,7 @@ Converted<DepthImage> imageHeader(std::int64_t utime_us, std::uint64_t sequence,
                                   std::int32_t height_px, double depth_unit_m) {
   const Converted<Time> stamp = timeFromUtime(utime_us);
   if (const auto* fault = std::get_if<ConvertFault>(&stamp)) return *fault;
-  if (width_px < 0 || height_px < 0) return ConvertFault::kBadSize;
-  if (static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) > kMaxImagePixels) {
-    return ConvertFault::kBadSize;
-  }
+  if (!isImageSize(width_px, height_px)) return ConvertFault::kBadSize;
   DepthImage image;
   image.stamp = std::get<Time>(stamp);
   image.sequence = sequence;

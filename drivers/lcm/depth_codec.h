@@ -13,6 +13,12 @@ namespace nanomap {
 /// Most pixels that an image from outside may announce: four times a 1920x1080 sensor, 16 MB. What is larger is damage.
 inline constexpr std::size_t kMaxImagePixels = 8'294'400;
 
+/// A size that an image from outside may announce: not negative, and of no more pixels.
+[[nodiscard]] constexpr bool isImageSize(std::int32_t width_px, std::int32_t height_px) {
+  return width_px >= 0 && height_px >= 0 &&
+         static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) <= kMaxImagePixels;
+}
+
 /// Lossless compression of a 16-bit depth image: one Blosc 1 chunk, bytes shuffled (the high bytes of neighbouring
 /// depths are alike), then Zstandard. The same pixels give the same bytes, whatever the environment.
 /// @pre at most kMaxImagePixels
