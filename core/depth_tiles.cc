@@ -27,7 +27,7 @@ struct TileRow {
   std::size_t bottom;                        ///< past the last row, at most a tile's edge below the top
   std::span<const std::uint16_t> no_return;  ///< values
   std::uint16_t* least;                      ///< one a tile, as the others
-  std::uint16_t* cover;
+  DepthTiles::Cover* cover;
   std::uint16_t* column_cover;  ///< kEdge_px a tile
   DepthTiles::Gaps* gaps;
 };
@@ -59,12 +59,19 @@ HWY_INLINE RawVec overParts(RawVec v, Pick pick) {
   return pick(v, hn::BitCast(d, hn::RotateRight<16>(hn::BitCast(d32, v))));
 }
 
-/// Writes the first lane of each part.
-HWY_INLINE void storeParts(RawVec v, std::size_t tiles, std::uint16_t* out) {
+/// Calls `set(tile, first lane of its part)`.
+template <class Set>
+HWY_INLINE void eachPart(RawVec v, std::size_t tiles, Set set) {
   alignas(64) std::array<std::uint16_t, kColumns> lanes;
   hn::Store(v, RawTag(), lanes.data());
-  for (std::size_t tile = 0; tile < tiles; ++tile) out[tile] = lanes[tile * kEdge];
+  for (std::size_t tile = 0; tile < tiles; ++tile) set(tile, lanes[tile * kEdge]);
 }
+
+alignas(64) constexpr auto kColumnBits = [] {
+  std::array<std::uint16_t, kColumns> bits{};
+  for (std::size_t i = 0; i < kColumns; ++i) bits[i] = static_cast<std::uint16_t>(1U << i % kEdge);
+  return bits;
+}();
 
 /// Bounds `tiles` tiles, of which eight rows start at `pixels`, `stride` apart; those from `first_tile` on.
 HWY_INLINE void boundTiles(const TileRow& row, const std::uint16_t* pixels, std::size_t stride, std::size_t first_tile,
@@ -85,16 +92,20 @@ HWY_INLINE void boundTiles(const TileRow& row, const std::uint16_t* pixels, std:
   }
   const auto lower = [](RawVec a, RawVec b) { return hn::Min(a, b); };
   const auto higher = [](RawVec a, RawVec b) { return hn::Max(a, b); };
-  const auto without_gap = hn::Eq(gaps, hn::Zero(d));
-  const RawVec cover = hn::IfThenElse(without_gap, greatest, hn::Set(d, DepthTiles::kNoDepth));
-  storeParts(overParts(least, lower), tiles, row.least + first_tile);
-  storeParts(overParts(cover, higher), tiles, row.cover + first_tile);
+  const auto either = [](RawVec a, RawVec b) { return hn::Or(a, b); };
+  const RawVec gap_columns = hn::IfThenZeroElse(hn::Eq(gaps, hn::Zero(d)), hn::Load(d, kColumnBits.data()));
+  const RawVec gap_lines = hn::Or(gap_columns, hn::ShiftLeft<DepthTiles::kEdge_px>(gaps));
+  DepthTiles::Cover* cover = row.cover + first_tile;
+  eachPart(overParts(least, lower), tiles, [&](std::size_t i, std::uint16_t v) { row.least[first_tile + i] = v; });
+  eachPart(overParts(greatest, higher), tiles, [&](std::size_t i, std::uint16_t v) { cover[i].bits = v; });
+  eachPart(overParts(gap_lines, either), tiles,
+           [&](std::size_t i, std::uint16_t v) { cover[i].bits |= v * DepthTiles::Cover::kFirstColumn; });
   if (tiles == kTiles) {
-    hn::StoreU(cover, d, row.column_cover + first_tile * kEdge);
+    hn::StoreU(greatest, d, row.column_cover + first_tile * kEdge);
   } else {
-    alignas(64) std::array<std::uint16_t, kColumns> covers;
-    hn::Store(cover, d, covers.data());
-    std::copy_n(covers.begin(), tiles * kEdge, row.column_cover + first_tile * kEdge);
+    alignas(64) std::array<std::uint16_t, kColumns> columns;
+    hn::Store(greatest, d, columns.data());
+    std::copy_n(columns.begin(), tiles * kEdge, row.column_cover + first_tile * kEdge);
   }
 
   const hn::Rebind<std::uint8_t, RawTag> d8;
@@ -140,8 +151,8 @@ DepthTiles::DepthTiles(const CameraModel& camera)
     : columns_(tilesAlong(camera.width())),
       rows_(tilesAlong(camera.height())),
       least_(tileAt(0, rows_), kNoDepth),
-      cover_(tileAt(0, rows_), kNoDepth),
-      column_cover_(tileAt(0, rows_) * kEdge_px, kNoDepth),
+      cover_(tileAt(0, rows_)),
+      column_cover_(tileAt(0, rows_) * kEdge_px, 0),
       gaps_(tileAt(0, rows_)) {
   Gaps everywhere;
   everywhere.fill(0xFF);

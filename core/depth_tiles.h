@@ -33,16 +33,34 @@ class DepthTiles {
   /// Row-major, `columns() * rows()` values. A tile without any depth holds kNoDepth.
   [[nodiscard]] const std::vector<std::uint16_t>& least() const { return least_; }
 
-  /// The greatest raw depth in the same order, kNoDepth for a tile with a pixel that carries no depth: what is not
-  /// nearer than this is occluded, whichever pixel of the tile it falls on.
-  [[nodiscard]] const std::vector<std::uint16_t>& cover() const { return cover_; }
+  /// What is in front of whatever is not nearer than `greatest()`: all pixels of a tile but those that carry no depth.
+  struct Cover {
+    /// The bits of a pixel's column and row in its tile.
+    [[nodiscard]] static constexpr std::uint32_t linesOf(int column, int row) {
+      return std::uint32_t{kFirstColumn} << column | std::uint32_t{kFirstRow} << row;
+    }
+    static constexpr std::uint32_t kFirstColumn = 1U << 16;
+    static constexpr std::uint32_t kFirstRow = kFirstColumn << kEdge_px;
+    static constexpr std::uint32_t kGreatest = kFirstColumn - 1;
 
-  /// The same of each column of each tile, kEdge_px values a tile, left to right: what is upright (trunks, poles,
-  /// frames of doors) parts near from far along columns.
+    /// Raw depth; 0 without any.
+    [[nodiscard]] std::uint16_t greatest() const { return static_cast<std::uint16_t>(bits & kGreatest); }
+    /// linesOf() all pixels that carry no depth: another one may have its column of one of them and its row of another,
+    /// but most carry a depth for certain where gaps are few. Of lines outside the image they say nothing.
+    [[nodiscard]] std::uint32_t gapLines() const { return bits & ~kGreatest; }
+
+    std::uint32_t bits = ~kGreatest;  ///< both, without any overlap
+  };
+
+  /// In the same order.
+  [[nodiscard]] const std::vector<Cover>& cover() const { return cover_; }
+
+  /// The greatest raw depth in each column of each tile, 0 without any, kEdge_px values a tile, left to right: what is
+  /// upright (trunks, poles, frames of doors) parts near from far along columns.
   [[nodiscard]] const std::vector<std::uint16_t>& columnCover() const { return column_cover_; }
 
   /// Is there a pixel in the tile that carries no depth?
-  [[nodiscard]] bool hasGap(std::size_t tile) const { return cover_[tile] == kNoDepth; }
+  [[nodiscard]] bool hasGap(std::size_t tile) const { return cover_[tile].gapLines() != 0; }
 
   /// The pixels of a tile that carry no depth: a byte for each column, a bit for each row.
   using Gaps = std::array<std::uint8_t, kEdge_px>;
@@ -57,7 +75,7 @@ class DepthTiles {
   int columns_;
   int rows_;
   std::vector<std::uint16_t> least_;
-  std::vector<std::uint16_t> cover_;
+  std::vector<Cover> cover_;
   std::vector<std::uint16_t> column_cover_;
   std::vector<Gaps> gaps_;
 };

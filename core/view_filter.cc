@@ -20,7 +20,8 @@ constexpr double kLargest = 1e6;
 constexpr double kRoundingUp = 1.0 + 0x1p-20;
 
 /// Read in the lanes without a view.
-constexpr std::uint16_t kNoCover = 0;
+constexpr DepthTiles::Cover kNoCover;
+constexpr std::uint16_t kNoColumnCover = 0;
 
 bool isWithin(const auto& matrix, double limit) { return (matrix.array().abs() <= limit).all(); }
 
@@ -76,7 +77,7 @@ ViewLanes withoutViews() {
   ViewLanes lanes{};
   lanes.near_m.fill(std::numeric_limits<float>::infinity());
   lanes.cover.fill(&kNoCover);
-  lanes.column_cover.fill(&kNoCover);
+  lanes.column_cover.fill(&kNoColumnCover);
   return lanes;
 }
 

@@ -29,6 +29,18 @@ constexpr float kLeastDepthInSlacks = 16.0F;
 constexpr float kGreatestCertainRaw = static_cast<float>(DepthTiles::kNoDepth - 1);
 constexpr int kTileShift = 3;
 static_assert(1 << kTileShift == DepthTiles::kEdge_px);
+constexpr auto kFirstColumn = static_cast<std::int32_t>(DepthTiles::Cover::kFirstColumn);
+constexpr auto kFirstRow = static_cast<std::int32_t>(DepthTiles::Cover::kFirstRow);
+constexpr auto kGreatest = static_cast<std::int32_t>(DepthTiles::Cover::kGreatest);
+
+/// Covers of the lanes of a vector, from `first` on. A call, so that tiles are read from memory: inlined, the compiler
+/// takes them out of a vector one by one.
+HWY_NOINLINE void loadCovers(const ViewLanes& views, std::size_t first, const ProbedLanes& at,
+                             std::array<std::int32_t, kViewLanes>& out) {
+  for (std::size_t i = first; i < first + hn::MaxLanes(Float()); ++i) {
+    out[i] = static_cast<std::int32_t>(views.cover[i][at.tile[i]].bits);
+  }
+}
 
 /// One point against one vector of views: the lanes of `views` from `first` on. Bits are relative to `first`.
 /// Vectors are never members: those of some targets have no size.
@@ -105,21 +117,30 @@ class VectorProbe {
 
     const IntVec tile_row = hn::ShiftRight<kTileShift>(row);
     const IntVec tiled_width_px = hn::Load(di, views_.tiled_width_px.data() + first_);
-    hn::Store(hn::Add(hn::Mul(tile_row, tiled_width_px), column), di, out.tile_column.data() + first_);
+    const IntVec tile_column = hn::Add(hn::Mul(tile_row, tiled_width_px), column);
+    hn::Store(tile_column, di, out.tile_column.data() + first_);
+    hn::Store(hn::ShiftRight<kTileShift>(tile_column), di, out.tile.data() + first_);
   }
 
-  /// Bits of the lanes where every pixel of the cell's tile, or of its column there, carries a depth, and the mean is
-  /// not nearer than any of them.
+  /// Bits of the lanes where the cell's pixel carries a depth for certain, and the mean is not nearer than any depth of
+  /// its tile, or of its column there.
   HWY_INLINE std::uint32_t behindTiles(std::uint32_t inside, ProbedLanes& out) const {
     // Tiles first: all those of a history stay in a cache that their columns have no room in.
-    std::uint32_t behind = 0;
-    for (std::size_t i = 0; i < laneCount(); ++i) {
-      const std::size_t lane = first_ + i;
-      const std::uint16_t cover = views_.cover[lane][out.tile_column[lane] >> kTileShift];
-      behind |= static_cast<std::uint32_t>(out.raw[lane] >= cover) << i;
-    }
-    const std::uint32_t certain = (out.in_cell & views_.tiled) >> first_ & inside;
-    behind &= certain;
+    const Float d;
+    const Int di;
+    alignas(64) std::array<std::int32_t, kViewLanes> covers;
+    loadCovers(views_, first_, out, covers);
+    const IntVec cover = hn::Load(di, covers.data() + first_);
+    const IntVec raw = hn::Load(di, out.raw.data() + first_);
+    const IntVec in_tile = hn::Set(di, DepthTiles::kEdge_px - 1);
+    const IntVec column = hn::And(hn::Load(di, out.column.data() + first_), in_tile);
+    const IntVec row = hn::And(hn::Load(di, out.row.data() + first_), in_tile);
+    const IntVec lines = hn::Or(hn::Shl(hn::Set(di, kFirstColumn), column), hn::Shl(hn::Set(di, kFirstRow), row));
+    const auto may_be_gap = hn::Eq(hn::And(cover, lines), lines);
+    const auto nearer = hn::Lt(raw, hn::And(cover, hn::Set(di, kGreatest)));
+    const std::uint32_t certain =
+        (out.in_cell & views_.tiled) >> first_ & inside & ~bits(hn::RebindMask(d, may_be_gap));
+    std::uint32_t behind = certain & ~bits(hn::RebindMask(d, nearer));
     for (std::uint32_t rest = certain & ~behind; rest != 0; rest &= rest - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
       const std::size_t lane = first_ + i;

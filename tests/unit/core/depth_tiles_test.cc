@@ -30,23 +30,28 @@ void expectBoundsOf(const DepthImage& image, const CameraModel& camera) {
     for (int column = 0; column < tiles.columns(); ++column) {
       const std::size_t tile = tiles.tileAt(column, row);
       std::uint16_t least = DepthTiles::kNoDepth;
-      std::uint16_t cover = 0;
+      std::uint16_t greatest = 0;
+      std::uint32_t lines = 0;
+      std::uint32_t gap_lines = 0;
       for (int u = column * kEdge; u < std::min((column + 1) * kEdge, image.width_px); ++u) {
         const auto in_tile = static_cast<std::size_t>(u % kEdge);
-        std::uint16_t column_cover = 0;
+        std::uint16_t greatest_of_column = 0;
         for (int v = row * kEdge; v < std::min((row + 1) * kEdge, image.height_px); ++v) {
           const std::uint16_t raw = image.pixels[static_cast<std::size_t>(v * image.width_px + u)];
           const bool none = camera.classify(raw) == DepthReading::kNone;
           least = std::min(least, none ? DepthTiles::kNoDepth : raw);
-          column_cover = std::max(column_cover, none ? DepthTiles::kNoDepth : raw);
+          if (!none) greatest_of_column = std::max(greatest_of_column, raw);
+          lines |= DepthTiles::Cover::linesOf(u % kEdge, v % kEdge);
+          if (none) gap_lines |= DepthTiles::Cover::linesOf(u % kEdge, v % kEdge);
           ASSERT_EQ((tiles.gaps()[tile][in_tile] >> (v % kEdge) & 1) != 0, none) << u << ' ' << v;
         }
-        ASSERT_EQ(tiles.columnCover()[tile * kEdge + in_tile], column_cover) << u << ' ' << row;
-        cover = std::max(cover, column_cover);
+        ASSERT_EQ(tiles.columnCover()[tile * kEdge + in_tile], greatest_of_column) << u << ' ' << row;
+        greatest = std::max(greatest, greatest_of_column);
       }
       ASSERT_EQ(tiles.least()[tile], least) << column << ' ' << row;
-      ASSERT_EQ(tiles.cover()[tile], cover) << column << ' ' << row;
-      ASSERT_EQ(tiles.hasGap(tile), cover == DepthTiles::kNoDepth);
+      ASSERT_EQ(tiles.cover()[tile].greatest(), greatest) << column << ' ' << row;
+      ASSERT_EQ(tiles.cover()[tile].gapLines() & lines, gap_lines) << column << ' ' << row;
+      ASSERT_EQ(tiles.hasGap(tile), gap_lines != 0);
     }
   }
 }
