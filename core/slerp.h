@@ -17,13 +17,13 @@ namespace nanomap {
   const double cosine = from.dot(to);
   const double x = 1.0 - std::abs(cosine);
   if (!(x <= kGreatestCosineGap)) return from.slerp(weight, to);
-  const auto share = [x](double w) {
-    const double w2 = w * w;
-    const auto b = [w2](double i) { return i / (2.0 * i + 1.0) - w2 * (1.0 / (i * (2.0 * i + 1.0))); };
-    return w * (1.0 + x * b(1.0) * (1.0 + x * b(2.0) * (1.0 + x * b(3.0) * (1.0 + x * b(4.0)))));
-  };
-  const double to_share = std::copysign(share(weight), cosine);
-  return Eigen::Quaterniond(share(1.0 - weight) * from.coeffs() + to_share * to.coeffs());
+  // Both shares at once: of `from` and of `to`.
+  const Eigen::Array2d w(1.0 - weight, weight);
+  const Eigen::Array2d w2 = w * w;
+  const auto b = [&w2](double i) -> Eigen::Array2d { return i / (2.0 * i + 1.0) - w2 * (1.0 / (i * (2.0 * i + 1.0))); };
+  const Eigen::Array2d series = 1.0 + x * b(1.0) * (1.0 + x * b(2.0) * (1.0 + x * b(3.0) * (1.0 + x * b(4.0))));
+  const Eigen::Array2d shares = w * series;
+  return Eigen::Quaterniond(shares[0] * from.coeffs() + std::copysign(shares[1], cosine) * to.coeffs());
 }
 
 }  // namespace nanomap
