@@ -7,8 +7,10 @@ namespace nanomap {
 namespace {
 
 /// What is steered for from `start`: a goal that cannot be is the planner's to refuse.
-std::optional<Goal> steered(Detour& detour, const VehicleState& start, const std::optional<Goal>& goal) {
-  return isPlausible(start) && !goalFault(goal, start) ? detour.steer(start, *goal) : goal;
+std::optional<Goal> steered(Arrival& arrival, Detour& detour, const VehicleState& start,
+                            const std::optional<Goal>& goal) {
+  if (!isPlausible(start) || goalFault(goal, start)) return goal;
+  return detour.steer(start, arrival.steer(*goal));
 }
 
 void nameDetour(Decision& decision, const Detour& detour) {
@@ -20,7 +22,8 @@ void nameDetour(Decision& decision, const Detour& detour) {
 Decision RecedingHorizon::step(const ChainSnapshot& snapshot, const VehicleState& measured,
                                const std::optional<Goal>& goal, Time now) {
   const VehicleState start = startState(measured, now);
-  Decision decision = planner_.plan(snapshot, start, steered(detour_, start, goal), now);
+  Decision decision = planner_.plan(snapshot, start, steered(arrival_, detour_, start, goal), now);
+  arrival_.note(decision);
   detour_.note(decision.reason);
   nameDetour(decision, detour_);
   if (isFlyable(decision)) in_force_ = decision;
@@ -29,14 +32,16 @@ Decision RecedingHorizon::step(const ChainSnapshot& snapshot, const VehicleState
 
 void RecedingHorizon::release() {
   in_force_.reset();
+  arrival_ = Arrival(planner_.parameters().objective.goal_tolerance_m);
   detour_ = Detour(planner_.parameters().detour);
 }
 
 Explanation RecedingHorizon::explain(const ChainSnapshot& snapshot, const VehicleState& measured,
                                      const std::optional<Goal>& goal, Time now) const {
   const VehicleState start = startState(measured, now);
+  Arrival arrival = arrival_;
   Detour detour = detour_;
-  Explanation explanation = planner_.explain(snapshot, start, steered(detour, start, goal), now);
+  Explanation explanation = planner_.explain(snapshot, start, steered(arrival, detour, start, goal), now);
   nameDetour(explanation.decision, detour);
   return explanation;
 }

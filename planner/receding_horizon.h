@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/decision.h"
+#include "planner/arrival.h"
 #include "planner/detour.h"
 #include "planner/explanation.h"
 #include "planner/planner.h"
@@ -19,12 +20,14 @@ namespace nanomap {
 /// measured: after a jump of the estimator, in a hand that carries the vehicle, over a recording of someone else's
 /// flight.
 ///
-/// What is steered for is the goal, or on a detour what that says (planner/detour.h).
-/// A function of what it was given, in that order. Allocates: no, except inside FLANN. Threads: one.
+/// What is steered for is the goal; once there, the place where the vehicle stands (planner/arrival.h); on a detour
+/// what that says (planner/detour.h). A function of what it was given, in that order. Allocates: no, except inside
+/// FLANN. Threads: one.
 class RecedingHorizon {
  public:
   /// @throws std::invalid_argument naming the parameter that is wrong
-  explicit RecedingHorizon(const PlannerParameters& parameters) : planner_(parameters), detour_(parameters.detour) {}
+  explicit RecedingHorizon(const PlannerParameters& parameters)
+      : planner_(parameters), arrival_(parameters.objective.goal_tolerance_m), detour_(parameters.detour) {}
 
   /// Plans for `now` and takes the decision into force if it may be flown.
   /// @param measured  as the estimator last said
@@ -49,6 +52,7 @@ class RecedingHorizon {
 
  private:
   Planner planner_;
+  Arrival arrival_;
   Detour detour_;
   std::optional<Decision> in_force_;
 };

@@ -102,6 +102,26 @@ TEST_F(RecedingHorizonOverAField, WithoutANewPlanItStandsStillInTheEnd) {
   EXPECT_EQ(end.position_m, horizon_.inForce()->brake.atEnd().position_m);
 }
 
+/// At the edge of the tolerance a goal moves in and out of it, as it is corrected for drift.
+TEST_F(RecedingHorizonOverAField, AGoalThatMovesALittleIsArrivedAtOnce) {
+  Time now = flight_.now();
+  const auto reasonWithGoalAt = [&](double x_m) {
+    goal_ = goalAt({x_m, 0.0, 2.0});
+    now += kPeriod;
+    return step(measuredAt(now, {{0.0, 0.0, 2.0}, Vec3::Zero(), Vec3::Zero()}), now).reason;
+  };
+  EXPECT_EQ(reasonWithGoalAt(0.6), Reason::kFlying);
+  horizon_.release();
+  EXPECT_EQ(reasonWithGoalAt(0.4), Reason::kAtGoal);
+  EXPECT_EQ(reasonWithGoalAt(0.6), Reason::kAtGoal);
+  EXPECT_EQ(horizon_.explain(flight_.snapshot(), flight_.state(), goal_, flight_.now()).decision.reason,
+            Reason::kAtGoal);
+  EXPECT_EQ(reasonWithGoalAt(0.4), Reason::kAtGoal);
+  EXPECT_EQ(reasonWithGoalAt(1.0), Reason::kFlying);
+  horizon_.release();
+  EXPECT_EQ(reasonWithGoalAt(0.6), Reason::kFlying) << "whoever has had the vehicle since may have moved it";
+}
+
 TEST_F(RecedingHorizonOverAField, ExplainingTakesNothingIntoForce) {
   const Explanation explanation = horizon_.explain(flight_.snapshot(), flight_.state(), goal_, flight_.now());
   EXPECT_EQ(explanation.decision.reason, Reason::kFlying);
