@@ -17,6 +17,10 @@ constexpr double kSamePlace_m = 1.0;
 /// Less is no progress, but noise of the estimator.
 constexpr double kProgress_m = 0.2;
 
+/// As much nearer to the goal than it began, a detour has done its work, wherever its course points: a vehicle that
+/// flies past a goal nearby would circle it, because the direction to it turns as fast as the course leans back.
+constexpr double kDone_m = 3.0;
+
 /// Slower than that, a motion has no direction to lean from.
 constexpr double kMoving_m_s = 0.5;
 
@@ -33,9 +37,7 @@ constexpr int kMostAttempts = 2;
 
 constexpr double kFullTurn_rad = 2.0 * std::numbers::pi;
 
-bool isHeldUp(Reason reason) {
-  return reason == Reason::kBlocked || reason == Reason::kRetreating || reason == Reason::kNothingVerified;
-}
+bool isHeldUp(Reason reason) { return reason == Reason::kBlocked || reason == Reason::kNothingVerified; }
 
 Goal turnedAbout(const Vec3& position_W_m, double angle_rad, Goal goal) {
   const Vec3 to_goal_W = goal.position_W_m - position_W_m;
@@ -59,9 +61,10 @@ Goal Detour::steer(const VehicleState& start, const Goal& goal) {
     least_distance_m_ = to_goal_W.norm();
     last_progress_ = start.stamp;
   }
-  watchProgress(start.stamp, to_goal_W.norm());
+  const Duration elapsed = std::clamp(start.stamp - last_stamp_, Duration::zero(), kLongestStep);
+  watchProgress(start.stamp, elapsed, to_goal_W.norm());
   if (attempt_) {
-    follow(start, to_goal_W, std::clamp(start.stamp - last_stamp_, Duration::zero(), kLongestStep));
+    follow(start, to_goal_W, elapsed);
     if (isInVain(start)) begin(start, -attempt_->side);
   } else if (start.stamp - last_progress_ >= parameters_.patience && to_goal_W.norm() > parameters_.near_goal_m) {
     const double looks_rad = wrapAngle(yawOf(start.T_W_B.rotation) - headingOf(to_goal_W));
@@ -72,13 +75,15 @@ Goal Detour::steer(const VehicleState& start, const Goal& goal) {
   return isTurned() ? turnedAbout(start.T_W_B.translation_m, attempt_->side * attempt_->turn_rad, goal) : goal;
 }
 
-void Detour::watchProgress(Time now, double distance_m) {
+void Detour::watchProgress(Time now, Duration elapsed, double distance_m) {
   const bool nearer = distance_m < least_distance_m_ - kProgress_m;
-  const bool wants_on = last_reason_ && (isHeldUp(*last_reason_) || *last_reason_ == Reason::kFlying);
+  const bool retreats = last_reason_ == Reason::kRetreating;
+  const bool wants_on = last_reason_ && (isHeldUp(*last_reason_) || *last_reason_ == Reason::kFlying || retreats);
   if (nearer || !wants_on) last_progress_ = now;
+  if (!nearer && retreats) last_progress_ += elapsed;
   if (!nearer) return;
   least_distance_m_ = distance_m;
-  if (!isTurned()) attempt_.reset();
+  if (!isTurned() || distance_m <= attempt_->distance_m - kDone_m) attempt_.reset();
   attempts_ = attempt_ ? 1 : 0;
 }
 
@@ -107,7 +112,8 @@ void Detour::begin(const VehicleState& start, double side) {
   attempt_.reset();
   if (attempts_ == kMostAttempts) return;
   ++attempts_;
-  attempt_ = Attempt{.side = side, .began_W_m = start.T_W_B.translation_m, .began = start.stamp};
+  attempt_ = Attempt{
+      .side = side, .began_W_m = start.T_W_B.translation_m, .began = start.stamp, .distance_m = least_distance_m_};
 }
 
 }  // namespace nanomap

@@ -22,11 +22,10 @@ struct DetourParameters {
 /// its goal is steered for a goal that is turned about it, ever farther to one side while nothing there is safe either;
 /// once it moves, the course leans back from its motion towards the obstacle, so that it follows its edge, and rounds
 /// it. The turn is counted, not wrapped: the detour is over when it has come back to nothing nearer to the goal than it
-/// began. An attempt that leads back to where it began, turns without end or takes too long is given up for one to the
-/// other side, and that one for good, until something else brings the vehicle nearer or the goal is moved: a goal
-/// that is closed in is not flown around for ever.
-/// Which course is safe is the planner's business alone.
-/// A function of what it was given, in that order. Allocates: no. Threads: one.
+/// began, or has come a good deal nearer. An attempt that leads back to where it began, turns without end or takes too
+/// long is given up for one to the other side, and that one for good, until something else brings the vehicle nearer or
+/// the goal is moved: a goal that is closed in is not flown around for ever. Which course is safe is the planner's
+/// business alone. A function of what it was given, in that order. Allocates: no. Threads: one.
 class Detour {
  public:
   explicit Detour(const DetourParameters& parameters) : parameters_(parameters) {}
@@ -47,10 +46,11 @@ class Detour {
     double turn_rad = 0.0;
     Vec3 began_W_m = Vec3::Zero();
     Time began{};
-    bool left = false;  ///< where it began
+    double distance_m = 0.0;  ///< to the goal, at the least, when it began
+    bool left = false;        ///< where it began
   };
 
-  void watchProgress(Time now, double distance_m);
+  void watchProgress(Time now, Duration elapsed, double distance_m);
   void follow(const VehicleState& start, const Vec3& to_goal_W_m, Duration elapsed);
   [[nodiscard]] bool isInVain(const VehicleState& start);
   void begin(const VehicleState& start, double side);

@@ -93,6 +93,16 @@ TEST_F(DetourTest, CreepingIsNoProgress) {
   EXPECT_TRUE(detour_.isTurned());
 }
 
+/// It waits for something that is too near to be behind it: neither patience nor the turn is about that.
+TEST_F(DetourTest, ARetreatTakesNoTime) {
+  (void)run(parameters_.patience - 500ms, Reason::kBlocked);
+  EXPECT_EQ(run(10s, Reason::kRetreating), 0.0);
+  EXPECT_EQ(run(400ms, Reason::kBlocked), 0.0) << "patience goes on where it was";
+  const double turned_rad = run(2s, Reason::kBlocked);
+  EXPECT_GT(turned_rad, 1.0);
+  EXPECT_NEAR(run(3s, Reason::kRetreating), turned_rad, parameters_.turn_rate_rad_s * toSeconds(kPeriod) + 1e-9);
+}
+
 TEST_F(DetourTest, TheCourseLeansBackFromTheMotion) {
   (void)run(5s, Reason::kBlocked);
   state_.velocity_W_m_s = {0.0, 3.0, 0.0};  // along a wall across the way
@@ -112,6 +122,17 @@ TEST_F(DetourTest, EndsTowardsTheGoalAndNearerToItThanItBegan) {
   (void)step(Reason::kFlying);
   state_.velocity_W_m_s.setZero();
   EXPECT_EQ(run(parameters_.patience, Reason::kBlocked), 0.0) << "it is over: patience again";
+}
+
+/// Past a goal nearby, the direction to it turns as fast as the course can lean back.
+TEST_F(DetourTest, IsOverAGoodDealNearerWhereverItsCoursePoints) {
+  EXPECT_GT(run(5s, Reason::kBlocked), 1.0);
+  state_.velocity_W_m_s = {0.0, 3.0, 0.0};
+  moveTo({2.5, 0.0, 0.0});
+  EXPECT_GT(step(Reason::kFlying), 0.5) << "it may have to come back";
+  moveTo({3.2, 0.0, 0.0});
+  EXPECT_EQ(step(Reason::kFlying), 0.0);
+  EXPECT_FALSE(detour_.isTurned());
 }
 
 TEST_F(DetourTest, ATurnWithoutEndIsTriedToTheOtherSideAndGivenUp) {
