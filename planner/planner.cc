@@ -122,15 +122,18 @@ double wantedHeading(const PlannerParameters& parameters, const Inputs& inputs, 
   const bool above_or_below = to_goal_W.head<2>().norm() <= parameters.objective.goal_tolerance_m;
   const double goal_heading_rad = above_or_below ? task.yaw_W_rad : headingTo(to_goal_W);
 
+  const Vec3 velocity_W = decision.trajectory.sample(parameters.brake_after_s).velocity_m_s;
+  const bool moves = velocity_W.head<2>().norm() >= parameters.heading.min_speed_m_s;
+  const bool brakes = decision.candidate == kBrake;
+
   switch (decision.reason) {
-    case Reason::kFlying: {
-      const Vec3 velocity_W = decision.trajectory.sample(parameters.brake_after_s).velocity_m_s;
-      const bool has_direction = velocity_W.head<2>().norm() >= parameters.heading.min_speed_m_s;
-      return has_direction ? headingTo(velocity_W) : goal_heading_rad;
-    }
+    case Reason::kFlying:
+      return moves ? headingTo(velocity_W) : goal_heading_rad;
     case Reason::kBlocked:
     case Reason::kRetreating:
     case Reason::kNothingVerified: {
+      // What it comes to a stand before was best seen just now: what is looked away from soon is too near.
+      if (moves && brakes) return headingTo(velocity_W);
       // What a sweep reaches anyway need not be turned to first, else the two would take turns.
       const double reach_rad = std::max(view.half_width_rad, parameters.heading.sweep_amplitude_rad);
       const bool out_of_reach = std::abs(wrapAngle(goal_heading_rad - task.yaw_W_rad)) > reach_rad;

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "core/level_frame.h"
+#include "planner/heading.h"
 #include "tests/unit/planner/flight.h"
 
 namespace nanomap {
@@ -237,6 +239,26 @@ TEST(Planner, WithEverythingVetoedItSaysSo) {
   for (const std::uint32_t of_status : decision.vetoes.by_status) vetoes += of_status;
   EXPECT_EQ(vetoes, kCandidateCount);
   EXPECT_EQ(decision.risk, 1.0);
+}
+
+/// What it comes to a stand before must be in view until then; only then does it look around.
+TEST(Planner, WhileItBrakesTheCameraLooksWhereItFlies) {
+  PlannerParameters parameters = test::flightParameters();
+  parameters.heading.reach_s = 2.0;
+  Flight flight(DrawnWorld{{Block{{3.5, -40.0, 0.0}, {4.0, 40.0, 20.0}}}}, {0.0, 0.0, 2.0}, 0.0, parameters);
+  flight.look();
+  VehicleState state = flight.state();
+  state.velocity_W_m_s = {4.0, 1.0, 0.0};
+  const Goal goal = goalAt({50.0, 0.0, 2.0}, 6.0);
+  const Decision braking = flight.planner().plan(flight.snapshot(), state, goal, flight.now());
+  ASSERT_EQ(braking.reason, Reason::kBlocked);
+  EXPECT_NEAR(braking.yaw_W_rad, std::atan2(1.0, 4.0), 0.01);
+
+  state.velocity_W_m_s.setZero();
+  state.T_W_B.translation_m.x() += 1.5;
+  const Decision standing = flight.planner().plan(flight.snapshot(), state, goal, flight.now());
+  ASSERT_EQ(standing.reason, Reason::kBlocked);
+  EXPECT_NEAR(standing.yaw_W_rad, sweepOffset(flight.now(), parameters.heading), 1e-9);
 }
 
 TEST(Planner, ThePapersRuleChecksNoBrake) {
