@@ -19,8 +19,8 @@ enum class Reason : std::uint8_t {
   kSlowing,          ///< faster than the goal's top speed
   kTurning,          ///< stands, and turns towards a goal that is out of view
   kBlocked,          ///< nothing that leads nearer to the goal is safe; looks around
-  kRetreating,       ///< too near to something, where not even stopping is safe: moves away from it
-  kNothingVerified,  ///< not even stopping is safe, and nothing leads away: the last verified brake stays in force
+  kRetreating,       ///< too near to something, where not even stopping is safe: moves away from it, or stops at once
+  kNothingVerified,  ///< not even stopping is safe, where it leads was not seen: the last verified brake stays in force
   kNoGoal,           ///< none given yet
   kGoalInvalid,      ///< not finite, beyond all reason, or without a positive top speed
   kGoalOtherEpoch,   ///< given in a world that the estimator has left

@@ -163,9 +163,7 @@ Decision Planner::plan(const ChainSnapshot& snapshot, const VehicleState& state,
   const Task task = taskOf(parameters_, library_, inputs);
   const std::optional<Choice> choice = choose(task, parameters_.early_exit, decision);
 
-  const std::optional<Retreat> retreat =
-      choice ? std::nullopt
-             : chooseRetreat(task.candidates, parameters_.objective.least_gain_m, parameters_.risk.max_risk);
+  const std::optional<Retreat> retreat = choice ? std::nullopt : chooseRetreat(task.candidates, parameters_);
 
   decision.candidate = choice ? choice->index : retreat ? retreat->index : kBrake;
   decision.trajectory = task.candidates.motion(*decision.candidate);

@@ -7,21 +7,27 @@
 
 namespace nanomap {
 
-/// A way out of a place where even standing still is above the chance constraint: drift has carried the vehicle too
-/// near to something, or a gust has. Holding on there makes nothing safer.
+/// What to do where even stopping is above the chance constraint: drift has carried the vehicle too near to something,
+/// a gust has, or what it stands beside was seen so long ago that nobody knows how near it is by now.
 struct Retreat {
-  std::uint32_t index = 0;
-  TrajectoryRisk brake;  ///< of the candidate's brake, which is all that would be flown; its veto is disregarded
+  std::uint32_t index = 0;  ///< of the candidate; kBrake: there is nothing better than stopping
+  TrajectoryRisk brake;     ///< of its brake, which is all that would be flown; its veto is disregarded
 };
 
-/// The candidate whose brake ends farthest from everything measured, of those whose brake
-/// - at no sample comes nearer to a measured point than the vehicle is already, and
-/// - leads through nothing whose prior alone is above the constraint, and
-/// - ends in space seen as free or within the bubble, and there has gained `least_gain_m` of clearance.
-/// One that ends in space seen as free goes before one that does not: a step back into what was not seen is the last
-/// resort, and no longer than it takes until standing still is within the constraint again. Of equal ones the lowest
-/// index. Empty if there is none: nothing is better than where the vehicle is.
+/// The candidate whose brake is the least risk, of those whose brake
+/// - begins at a slow pace, and
+/// - is no more risk than stopping at once, neither on the way nor at its end, and
+/// - ends where standing is half that risk or less, or leads away from everything measured: at no sample nearer to it
+///   than the vehicle is, at the end farther by the objective's least gain, and
+/// - is known: leads through nothing whose prior alone is above the constraint, and ends in space seen as free or in
+///   the bubble.
+/// What is compared is risk, because distances to one thing in two views differ by the drift between them, and the risk
+/// knows how far each is to be trusted. One that ends in space seen as free goes before one that does not: a step back
+/// into what was not seen is the last resort, and no longer than it takes until standing still is within the constraint
+/// again. Where a collision on the way is as good as certain, the end decides, by its risk and then its distance; of
+/// equal ones the lowest index. If there is none, stopping at once, if that is known. Empty if it is not.
+/// @param parameters  that the candidates were made with
 /// Allocates: no, except inside FLANN. Threads: any number of callers.
-[[nodiscard]] std::optional<Retreat> chooseRetreat(const Candidates& candidates, double least_gain_m, double max_prior);
+[[nodiscard]] std::optional<Retreat> chooseRetreat(const Candidates& candidates, const PlannerParameters& parameters);
 
 }  // namespace nanomap
