@@ -22,7 +22,7 @@ struct Motion {
 /// A motion with constant jerk in each of a few pieces, in W. A value: no allocation anywhere.
 class Trajectory {
  public:
-  /// Two pieces of a primitive and five of a brake, and one to spare.
+  /// Two pieces of a primitive's beginning and five of a brake, and one to spare.
   static constexpr std::size_t kMaxPieces = 8;
 
   struct Piece {

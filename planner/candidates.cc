@@ -28,8 +28,8 @@ Vec3 Candidates::acceleration_L(std::uint32_t index) const {
 
 Trajectory Candidates::motion(std::uint32_t index) const {
   if (index == kBrake) return brakeAfter(Trajectory(start_, at_start_W_), 0.0, parameters_.limits);
-  const double horizon_s = parameters_.horizon.at(at_start_W_.velocity_m_s.norm());
-  return primitive(start_, at_start_W_, R_W_L_ * acceleration_L(index), horizon_s, parameters_.limits);
+  const PrimitiveTimes times = parameters_.horizon.at(at_start_W_.velocity_m_s.norm());
+  return primitive(start_, at_start_W_, R_W_L_ * acceleration_L(index), times, parameters_.limits);
 }
 
 Trajectory Candidates::brake(std::uint32_t index) const {
@@ -66,6 +66,9 @@ Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* eviden
   verdict.motion =
       space_.assess(trajectory, parameters_.samples, stop_early, evidence != nullptr ? &evidence->motion : nullptr);
   verdict.veto = verdict.motion.veto;
+  if (!verdict.veto && index != kBrake && !verdict.motion.last.leadsOut()) {
+    verdict.veto = VetoCause{verdict.motion.last.status};
+  }
   if (verdict.veto || parameters_.stop_check == StopCheck::kPaper) return verdict;
 
   verdict.stop = index == kBrake ? verdict.motion

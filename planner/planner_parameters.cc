@@ -49,6 +49,7 @@ void check(const MotionLimits& limits) {
 }
 
 void check(const HorizonParameters& horizon) {
+  requirePositive("horizon.push_s", horizon.push_s);
   requirePositive("horizon.min_s", horizon.min_s);
   requireAtLeast("horizon.max_s", horizon.max_s, "horizon.min_s", horizon.min_s);
   requirePositive("horizon.distance_m", horizon.distance_m);
@@ -128,9 +129,9 @@ double gainFromRest_m(const PlannerParameters& parameters) {
 
 }  // namespace
 
-double HorizonParameters::at(double speed_m_s) const {
+PrimitiveTimes HorizonParameters::at(double speed_m_s) const {
   const double flight_s = speed_m_s > 0.0 ? distance_m / speed_m_s : std::numeric_limits<double>::infinity();
-  return std::clamp(flight_s, min_s, max_s);
+  return {push_s, std::clamp(flight_s, min_s, max_s)};
 }
 
 void check(const PlannerParameters& parameters) {
@@ -145,6 +146,7 @@ void check(const PlannerParameters& parameters) {
   requireNotNegative("tracking.max_position_error_m", parameters.tracking.max_position_error_m);
   requireNotNegative("tracking.max_velocity_error_m_s", parameters.tracking.max_velocity_error_m_s);
   requirePositive("brake_after_s", parameters.brake_after_s);
+  requireAtLeast("horizon.push_s", parameters.horizon.push_s, "brake_after_s", parameters.brake_after_s);
   requireAtLeast("horizon.min_s", parameters.horizon.min_s, "brake_after_s", parameters.brake_after_s);
   const double gain_m = gainFromRest_m(parameters);
   require(parameters.objective.least_gain_m >= 0.0 && parameters.objective.least_gain_m < gain_m,

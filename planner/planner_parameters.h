@@ -17,12 +17,15 @@ enum class StopCheck : std::uint8_t {
 };
 
 /// How far ahead a primitive must be safe: as long as it takes to fly `distance_m` at the present speed, within limits.
+/// Its acceleration is held for `push_s` only: a turn that goes on to the horizon leads through a gap between two trees
+/// less often than a short one and the straight way on.
 struct HorizonParameters {
-  double min_s = 1.0;
-  double max_s = 1.5;  ///< the quotient has no bound at rest
-  double distance_m = 10.0;
+  double push_s = 0.4;  ///< at least `brake_after_s`
+  double min_s = 1.0;   ///< times the speed, no farther than the camera's range: what lies beyond is not safe
+  double max_s = 1.5;   ///< the quotient has no bound at rest
+  double distance_m = 3.0;
 
-  [[nodiscard]] double at(double speed_m_s) const;
+  [[nodiscard]] PrimitiveTimes at(double speed_m_s) const;
 };
 
 /// How far the vehicle may be from the motion in force and still be taken to follow it. With 0 every plan starts from

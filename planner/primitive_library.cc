@@ -41,14 +41,18 @@ Vec3 goalDirectedAcceleration(const Vec3& to_goal_m, const Vec3& velocity_m_s, d
   return acceleration_m_s2;
 }
 
-Trajectory primitive(Time start, const Motion& at_start_W, const Vec3& acceleration_W_m_s2, double horizon_s,
+Trajectory primitive(Time start, const Motion& at_start_W, const Vec3& acceleration_W_m_s2, const PrimitiveTimes& times,
                      const MotionLimits& limits) {
   const Vec3 change_m_s2 = acceleration_W_m_s2 - at_start_W.acceleration_m_s2;
-  const double ramp_s = limits.rampFor_s(change_m_s2.norm());
+  const double ramp_in_s = limits.rampFor_s(change_m_s2.norm());
+  const double ramp_out_s = limits.rampFor_s(acceleration_W_m_s2.norm());
+  const double pushed_s = std::max(ramp_in_s, times.push_s);
   Trajectory trajectory(start, at_start_W);
-  trajectory.append(std::min(ramp_s, horizon_s), change_m_s2 / ramp_s);
-  trajectory.append(std::max(horizon_s - ramp_s, 0.0), Vec3::Zero());
-  return trajectory;
+  trajectory.append(ramp_in_s, change_m_s2 / ramp_in_s);
+  trajectory.append(pushed_s - ramp_in_s, Vec3::Zero());
+  trajectory.append(ramp_out_s, -acceleration_W_m_s2 / ramp_out_s);
+  trajectory.append(std::max(times.horizon_s - pushed_s - ramp_out_s, 0.0), Vec3::Zero());
+  return trajectory.firstPart(times.horizon_s);
 }
 
 }  // namespace nanomap

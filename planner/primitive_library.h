@@ -43,8 +43,14 @@ struct GoalDirectedParameters {
 [[nodiscard]] Vec3 goalDirectedAcceleration(const Vec3& to_goal_m, const Vec3& velocity_m_s, double top_speed_m_s,
                                             const GoalDirectedParameters& parameters, const MotionLimits& limits);
 
-/// From the motion at the start, a linear ramp to `acceleration_W_m_s2` and then constant acceleration to the horizon.
+struct PrimitiveTimes {
+  double push_s = 0.0;     ///< when the acceleration begins to go back to zero
+  double horizon_s = 0.0;  ///< when the primitive ends
+};
+
+/// From the motion at the start, a linear ramp to `acceleration_W_m_s2`, held until the push ends; then a ramp to zero,
+/// and straight on to the horizon, which cuts whatever is not over yet.
 [[nodiscard]] Trajectory primitive(Time start, const Motion& at_start_W, const Vec3& acceleration_W_m_s2,
-                                   double horizon_s, const MotionLimits& limits);
+                                   const PrimitiveTimes& times, const MotionLimits& limits);
 
 }  // namespace nanomap

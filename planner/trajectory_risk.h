@@ -72,6 +72,9 @@ struct SampleEvidence {
 
   /// Free or open, or where the vehicle is anyway: a place to stand still.
   [[nodiscard]] bool seenFree() const { return in_bubble || endsSearch(status); }
+
+  /// A place to fly on from: the bubble moves with the vehicle, and is no reason to follow it where nothing was seen.
+  [[nodiscard]] bool leadsOut() const { return !in_bubble || endsSearch(status); }
 };
 
 /// What weighed most against something: a status, or measured points where there is none. Space that is not certified

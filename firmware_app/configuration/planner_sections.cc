@@ -27,7 +27,7 @@ Section planningSection() {
        numberKey(
            "brake_after_s",
            "When the brake that is verified with a motion leaves it: above the plan period plus the age at which a\n"
-           "plan is stale, and not above horizon.min_s.",
+           "plan is stale, and not above horizon.push_s and horizon.min_s.",
            {0.0, 10.0, true}, [](auto& c) -> auto& { return c.planner.brake_after_s; }),
        integerKey(
            "samples", "Steps of equal time that a motion is judged in; more are added where obstacles are near.",
@@ -72,17 +72,24 @@ Section limitsSection() {
 }
 
 Section horizonSection() {
-  return {"horizon",
-          "How far ahead a motion must be safe: the time that distance_m takes at the present speed, within limits.",
-          {numberKey(
-               "min_s", "At least.", {0.0, 60.0, true}, [](auto& c) -> auto& { return c.planner.horizon.min_s; }),
-           numberKey(
-               "max_s", "At most; not below min_s.", {0.0, 60.0, true},
-               [](auto& c) -> auto& { return c.planner.horizon.max_s; }),
-           numberKey(
-               "distance_m", "To be flown in it.", {0.0, 1000.0, true},
-               [](auto& c) -> auto& { return c.planner.horizon.distance_m; })},
-          {}};
+  return {
+      "horizon",
+      "How far ahead a motion must be safe: the time that distance_m takes at the present speed, within limits.",
+      {numberKey(
+           "push_s",
+           "How long a motion's acceleration is held, before it goes straight on; not below planner.brake_after_s.",
+           {0.0, 60.0, true}, [](auto& c) -> auto& { return c.planner.horizon.push_s; }),
+       numberKey(
+           "min_s",
+           "At least. What lies beyond the camera's range is not safe: a vehicle that flies so far in this time slows.",
+           {0.0, 60.0, true}, [](auto& c) -> auto& { return c.planner.horizon.min_s; }),
+       numberKey(
+           "max_s", "At most; not below min_s.", {0.0, 60.0, true},
+           [](auto& c) -> auto& { return c.planner.horizon.max_s; }),
+       numberKey(
+           "distance_m", "To be flown in it: a slow vehicle looks longer ahead than min_s.", {0.0, 1000.0, true},
+           [](auto& c) -> auto& { return c.planner.horizon.distance_m; })},
+      {}};
 }
 
 Section goalDirectedSection() {

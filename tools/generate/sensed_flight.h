@@ -27,7 +27,7 @@ enum class PoseType {
 struct SensedFlightOptions {
   std::string scene = "forest";
   std::uint64_t seed = 1;
-  double goal_speed_m_s = 7.0;  ///< top speed that comes with the goal
+  double goal_speed_m_s = 8.0;  ///< top speed that comes with the goal
 
   CameraParameters camera;  ///< as in tools/generate/paper_camera.h, say
   double depth_hz = 30.0;

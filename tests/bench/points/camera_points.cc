@@ -66,8 +66,8 @@ std::vector<Vec3f> primitivePoints(const DepthImage& image, const CameraModel& c
     const Vec3 velocity_L_m_s(forward_m_s(random), sideways_m_s(random), sideways_m_s(random));
     for (std::uint32_t index = 0; index < kLibrarySize; ++index) {
       const Vec3 acceleration_L_m_s2 = library.acceleration_L(index, limits, velocity_L_m_s.norm());
-      const Trajectory motion_L =
-          primitive(Time{}, {Vec3::Zero(), velocity_L_m_s, Vec3::Zero()}, acceleration_L_m_s2, kHorizon_s, limits);
+      const Trajectory motion_L = primitive(Time{}, {Vec3::Zero(), velocity_L_m_s, Vec3::Zero()}, acceleration_L_m_s2,
+                                            {.push_s = kHorizon_s, .horizon_s = kHorizon_s}, limits);
       for (int sample = 1; sample <= kSamples; ++sample) {
         const Vec3 p_B = motion_L.sample(kHorizon_s * sample / kSamples).position_m;
         const Vec3f p_C = (T_C_B * p_B).cast<float>();

@@ -5,9 +5,9 @@
 #include <random>
 #include <set>
 
+#include "core/level_frame.h"
 #include "planner/brake.h"
 #include "planner/candidates.h"
-#include "core/level_frame.h"
 
 namespace nanomap {
 namespace {
@@ -74,23 +74,48 @@ TEST_F(Kinematics, EveryTrajectoryStartsWithTheVehiclesMotion) {
   });
 }
 
-TEST_F(Kinematics, EveryPrimitiveReachesItsAccelerationAndKeepsItToTheHorizon) {
+TEST_F(Kinematics, EveryPrimitiveIsPushedAndThenGoesStraightOnToTheHorizon) {
   forEachCandidate([&](std::uint32_t index) {
     if (index == kBrake) return;
     const Trajectory motion = candidates_->motion(index);
     const Vec3 wanted_W = levelAxes(yaw_W_rad_) * candidates_->acceleration_L(index);
-    const double ramp_s = parameters_.limits.rampFor_s((wanted_W - start_W_.acceleration_m_s2).norm());
-    ASSERT_NEAR(motion.duration_s(), parameters_.horizon.at(start_W_.velocity_m_s.norm()), kRounding);
-    for (const double elapsed_s : {ramp_s, 0.5 * (ramp_s + motion.duration_s()), motion.duration_s()}) {
+    const PrimitiveTimes times = parameters_.horizon.at(start_W_.velocity_m_s.norm());
+    const double in_s = parameters_.limits.rampFor_s((wanted_W - start_W_.acceleration_m_s2).norm());
+    const double out_s = parameters_.limits.rampFor_s(wanted_W.norm());
+    const double pushed_s = std::max(times.push_s, in_s);
+    ASSERT_NEAR(motion.duration_s(), times.horizon_s, kRounding);
+    for (const double elapsed_s : {in_s, 0.5 * (in_s + pushed_s), pushed_s}) {
       ASSERT_LT((motion.sample(elapsed_s).acceleration_m_s2 - wanted_W).norm(), kRounding);
     }
-    // Position in closed form: a linear ramp of the acceleration, and then half of a t^2.
-    const double t_s = motion.duration_s() - ramp_s;
-    const Vec3 v_W = start_W_.velocity_m_s + 0.5 * ramp_s * (start_W_.acceleration_m_s2 + wanted_W);
-    const Vec3 p_W = start_W_.position_m + ramp_s * start_W_.velocity_m_s +
-                     ramp_s * ramp_s * (start_W_.acceleration_m_s2 / 3.0 + wanted_W / 6.0);
-    ASSERT_LT((motion.atEnd().position_m - (p_W + t_s * v_W + 0.5 * t_s * t_s * wanted_W)).norm(), 1e-8);
+    ASSERT_LT(pushed_s + out_s, times.horizon_s);
+    for (const double elapsed_s : {pushed_s + out_s, motion.duration_s()}) {
+      ASSERT_LT(motion.sample(elapsed_s).acceleration_m_s2.norm(), kRounding);
+    }
+    // In closed form: a linear ramp of the acceleration, half of a t^2, and a ramp again; then the velocity is kept.
+    const double held_s = pushed_s - in_s;
+    const double straight_s = times.horizon_s - pushed_s - out_s;
+    const Vec3 v_in_W = start_W_.velocity_m_s + 0.5 * in_s * (start_W_.acceleration_m_s2 + wanted_W);
+    const Vec3 v_held_W = v_in_W + held_s * wanted_W;
+    const Vec3 v_end_W = v_held_W + 0.5 * out_s * wanted_W;
+    const Vec3 p_in_W = start_W_.position_m + in_s * start_W_.velocity_m_s +
+                        in_s * in_s * (start_W_.acceleration_m_s2 / 3.0 + wanted_W / 6.0);
+    const Vec3 p_held_W = p_in_W + held_s * v_in_W + 0.5 * held_s * held_s * wanted_W;
+    const Vec3 p_out_W = p_held_W + out_s * v_held_W + out_s * out_s * wanted_W / 3.0;
+    ASSERT_LT((motion.atEnd().velocity_m_s - v_end_W).norm(), 1e-8);
+    ASSERT_LT((motion.atEnd().position_m - (p_out_W + straight_s * v_end_W)).norm(), 1e-8);
   });
+}
+
+TEST_F(Kinematics, HorizonCutsAPrimitiveThatIsStillPushed) {
+  draw();
+  const Vec3 pushed_m_s2(2.0, -1.0, 0.5);
+  const Trajectory whole = primitive({}, start_W_, pushed_m_s2, {.push_s = 0.6, .horizon_s = 3.0}, parameters_.limits);
+  for (const double horizon_s : {0.1, 0.5, 0.7, 2.0}) {
+    const Trajectory cut =
+        primitive({}, start_W_, pushed_m_s2, {.push_s = 0.6, .horizon_s = horizon_s}, parameters_.limits);
+    EXPECT_NEAR(cut.duration_s(), horizon_s, kRounding);
+    EXPECT_LT((cut.atEnd().position_m - whole.sample(horizon_s).position_m).norm(), kRounding);
+  }
 }
 
 TEST_F(Kinematics, EveryTrajectoryAgreesWithNumericIntegration) {
@@ -185,9 +210,9 @@ TEST(PrimitiveLibrary, HorizontalLimitGrowsWithSpeedUpToItsFullValue) {
 
 TEST(Horizon, IsTheTimeToFlyItsDistanceWithinItsLimits) {
   const HorizonParameters horizon;
-  EXPECT_DOUBLE_EQ(horizon.at(0.0), 1.5);
-  EXPECT_DOUBLE_EQ(horizon.at(8.0), 1.25);
-  EXPECT_DOUBLE_EQ(horizon.at(40.0), 1.0);
+  EXPECT_DOUBLE_EQ(horizon.at(0.0).horizon_s, 1.5);
+  EXPECT_DOUBLE_EQ(horizon.at(2.5).horizon_s, 1.2);
+  EXPECT_DOUBLE_EQ(horizon.at(40.0).horizon_s, 1.0);
 }
 
 TEST(GoalDirected, LeadsToTheWantedVelocityWithinTheLimits) {

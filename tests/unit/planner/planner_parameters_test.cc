@@ -29,6 +29,7 @@ TEST(PlannerParameters, ABadOneIsNamed) {
       {"limits.vertical_m_s2", [&](auto& p) { p.limits.vertical_m_s2 = nan; }},
       {"limits.ramp_s", [](auto& p) { p.limits.ramp_s = -0.2; }},
       {"limits.jerk_m_s3", [](auto& p) { p.limits.jerk_m_s3 = 0.0; }},
+      {"horizon.push_s", [](auto& p) { p.horizon.push_s = 0.2; }},
       {"horizon.max_s", [](auto& p) { p.horizon.max_s = 0.5; }},
       {"objective.max_altitude_W_m", [](auto& p) { p.objective.max_altitude_W_m = -1.0; }},
       {"objective.least_gain_m", [](auto& p) { p.objective.least_gain_m = 1.0; }},

@@ -190,11 +190,12 @@ TEST_F(PlannerAtHover, PrimitivesStayLevelAtFortyDegreesOfPitch) {
   state.T_W_B.rotation =
       Quat(Eigen::AngleAxisd(yaw_W_rad, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch_rad, Vec3::UnitY()));
   state.velocity_W_m_s = {1.0, 0.5, 0.0};
+  const PlannerParameters& parameters = flight_.planner().parameters();
   const Explanation explanation = flight_.planner().explain(flight_.snapshot(), state, goal_, flight_.now());
   ASSERT_EQ(explanation.candidates.size(), kCandidateCount);
   int level = 0;
   for (const CandidateExplanation& candidate : explanation.candidates) {
-    const Vec3 reached_W = candidate.trajectory.sample(1.0).acceleration_m_s2;
+    const Vec3 reached_W = candidate.trajectory.sample(parameters.horizon.push_s).acceleration_m_s2;
     if (candidate.proposal.index == kBrake) continue;
     EXPECT_NEAR(reached_W.z(), candidate.acceleration_L_m_s2.z(), 1e-12);
     EXPECT_LT((reached_W - levelAxes(yaw_W_rad) * candidate.acceleration_L_m_s2).norm(), 1e-12);
