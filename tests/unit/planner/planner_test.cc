@@ -256,7 +256,7 @@ TEST(Planner, WhileItBrakesTheCameraLooksWhereItFlies) {
   EXPECT_NEAR(braking.yaw_W_rad, std::atan2(1.0, 4.0), 0.01);
 
   state.velocity_W_m_s.setZero();
-  state.T_W_B.translation_m.x() += 1.5;
+  state.T_W_B.translation_m.x() += 2.7;
   const Decision standing = flight.planner().plan(flight.snapshot(), state, goal, flight.now());
   ASSERT_EQ(standing.reason, Reason::kBlocked);
   EXPECT_NEAR(standing.yaw_W_rad, sweepOffset(flight.now(), parameters.heading), 1e-9);
