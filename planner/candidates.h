@@ -26,7 +26,7 @@ struct Verdict {
   std::optional<TrajectoryRisk> stop;  ///< of its brake, if that was checked
   std::optional<VetoCause> veto;       ///< empty: feasible
 
-  [[nodiscard]] bool vetoedByBrake() const { return veto && !motion.veto; }
+  [[nodiscard]] bool vetoedByBrake() const { return veto && stop; }
 };
 
 /// Everything that a verdict rests on, sample by sample.

@@ -89,7 +89,7 @@ TEST(Load, VehicleAndPlannerArriveWhereThePlannerReadsThem) {
 
 TEST(Load, PlannerParametersMustFitEachOther) {
   EXPECT_THAT(refusal("[limits]\nhorizontal_at_rest_m_s2 = 9\n"), HasSubstr("limits.horizontal_at_full_m_s2"));
-  EXPECT_THAT(refusal("", {"planner.brake_after_s=2"}), HasSubstr("horizon.min_s"));
+  EXPECT_THAT(refusal("", {"planner.brake_after_s=2"}), HasSubstr("horizon.push_s"));
   EXPECT_THAT(refusal("", {"risk.max_risk=1.5"}), HasSubstr("must be a number, 0 .. 1"));
 }
 
