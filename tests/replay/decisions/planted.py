@@ -82,7 +82,7 @@ PLANTED = {
         d, brake__piece_duration=[*d.brake.piece_duration[:-1], 0.9 * d.brake.piece_duration[-1]])
         if _moving_brake(d) else None),
     "acceleration above the limit": (Fault.LIMITS, lambda d, v, s: _with(d, trajectory__piece_jerk=[
-        [0.0, 0.0, 1.1 * s.settings.vertical_m_s2 / d.trajectory.piece_duration[0]],
+        [0.0, 0.0, (1.1 * s.settings.vertical_m_s2 - d.trajectory.acceleration[2]) / d.trajectory.piece_duration[0]],
         *d.trajectory.piece_jerk[1:]]) if d.primitive != BRAKE else None),
     "jerk above the limit": (Fault.LIMITS, lambda d, v, s: _with(
         d, brake=_detour(d.brake, [2.1 * s.settings.jerk_m_s3 * (DETOUR_S / 4)**3, 0, 0]))),
