@@ -21,7 +21,10 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       ->check(CLI::IsMember(std::vector<std::string>(simulation::kSceneNames.begin(), simulation::kSceneNames.end())));
   app.add_option("--seed", options.seed, "Draws scene, noise and drift; the same seed flies the same flight")
       ->capture_default_str();
-  app.add_option("--speed", options.goal_speed_m_s, "Top speed that comes with the goal [m/s]")->capture_default_str();
+  app.add_option("--speed", options.goal_speed_m_s,
+                 "Top speed that comes with the goal [m/s]; the last one given holds")
+      ->capture_default_str()
+      ->take_last();
   app.add_option("--duration", arguments.duration_s, "Give up after [s]")->capture_default_str();
   app.add_option("--drift-5s", arguments.drift_5s_m, "Standard deviation of position drift after 5 s, on each axis [m]")
       ->capture_default_str();
