@@ -44,9 +44,10 @@ TEST_F(TroubledFlights, DriftOfOnePercentIsFlownThroughToTheGoal) {
   configuration_.chain.drift.horizontal_std_m = 0.35;  // in 5 s, at 7 m/s
   options_.vio.drift = configuration_.chain.drift;
   options_.correction_hz = 1.0;
+  options_.seed = 4;  // drifts more than others do in so short a flight
   const LockstepFlight flight = fly(60s, {});
   expectSwiftlyAtTheGoal(flight);
-  EXPECT_GT(flight.sensed.final_error_m, 0.3) << "it has not drifted";
+  EXPECT_GT(flight.sensed.final_error_m, 0.5) << "it has not drifted";
 }
 
 TEST_F(TroubledFlights, JumpOfTheEstimatorsWorldByAMetreIsBrakedForAndFlownOn) {
