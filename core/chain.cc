@@ -62,7 +62,9 @@ Chain::Chain(const ChainParameters& parameters)
     : parameters_(checked(parameters)),
       poses_(parameters.pose_capacity, parameters.max_pose_gap),
       links_(parameters.history_views),
-      waiting_(parameters.waiting_views) {}
+      waiting_(parameters.waiting_views) {
+  jobs_.reserve(parameters.history_views);
+}
 
 Chain::PoseOutcome Chain::addPose(const BodyPose& pose) {
   PoseOutcome outcome;
@@ -93,12 +95,10 @@ Chain::ViewOutcome Chain::addView(ViewPtr view) {
   return outcome;
 }
 
-void Chain::cover(Station& station, const CorrectionField::Delta& delta) const {
-  if (delta.coverage == CorrectionField::Coverage::kNone) return;
-  station.coverage = delta.coverage;
+void Chain::cover(Station& station, CorrectionField::Coverage coverage) const {
+  station.coverage = coverage;
   station.correction_serial = correction_serial_;
   station.world_epoch = last_correction_->epoch;
-  station.T_Wnew_Wold = delta.T_Wnew_Wold;
 }
 
 CorrectionVerdict Chain::addCorrection(const Correction& correction) {
@@ -122,13 +122,16 @@ CorrectionVerdict Chain::tryCorrection(const Correction& correction) {
   counters_.correction_poses_unmatched += correction.poses.size() - correction_.anchorCount();
   last_correction_ = {correction.epoch, correction.sequence};
   ++correction_serial_;
+  jobs_.clear();
   CorrectionField::Walk walk(correction_);
-  // Pass by pass, as CorrectionField::assign().
   for (std::size_t i = links_.size(); i-- > 0;) {
     Station& station = links_[i].station;
-    cover(station, walk.deltaAt(station.stamp, station.epoch));
+    const CorrectionField::Delta delta = walk.deltaAt(station.stamp, station.epoch);
+    if (delta.coverage == CorrectionField::Coverage::kNone) continue;
+    cover(station, delta.coverage);
+    jobs_.push_back({delta.from, delta.weight, delta.to, &station.T_W_S_original, &station.T_W_S});
   }
-  for (std::size_t i = 0; i < links_.size(); ++i) links_[i].station.correct();
+  applyDeltas(jobs_);
   for (std::size_t i = 1; i < links_.size(); ++i) correctEdge(links_[i], links_[i - 1]);
   return CorrectionVerdict::kAccepted;
 }
@@ -137,10 +140,13 @@ void Chain::correctEdge(Link& older, const Link& newer) {
   const auto inside = [this](const Station& station) {
     return station.coverage == CorrectionField::Coverage::kInside && station.correction_serial == correction_serial_;
   };
-  const bool replace = inside(older.station) && inside(newer.station);
-  const bool join = !older.T_this_newer;
-  if (!replace && !join) return;
-  older.T_this_newer = edgeBetween(older.station, newer.station);
+  if (inside(older.station) && inside(newer.station)) {
+    older.T_this_newer = relativePose(older.station.T_W_S, newer.station.T_W_S);
+  } else if (!older.T_this_newer) {
+    older.T_this_newer = edgeBetween(older.station, newer.station);
+  } else {
+    return;
+  }
   if (older.T_this_newer) ++counters_.edges_corrected;
 }
 
@@ -228,14 +234,12 @@ std::optional<Mat3> Chain::incrementBetween(Time older, Time newer) const {
 }
 
 Chain::Station Chain::stationAt(Time stamp, const Pose& T_W_S_original, std::uint32_t epoch) const {
-  Station station{.stamp = stamp,
-                  .epoch = epoch,
-                  .T_W_S_original = T_W_S_original,
-                  .world_epoch = epoch,
-                  .T_Wnew_Wold = {},
-                  .T_W_S = T_W_S_original};
-  cover(station, correction_.deltaAt(stamp, epoch));
-  station.correct();
+  Station station{
+      .stamp = stamp, .epoch = epoch, .T_W_S_original = T_W_S_original, .world_epoch = epoch, .T_W_S = T_W_S_original};
+  const CorrectionField::Delta delta = correction_.deltaAt(stamp, epoch);
+  if (delta.coverage == CorrectionField::Coverage::kNone) return station;
+  cover(station, delta.coverage);
+  station.T_W_S = delta.T_Wnew_Wold() * T_W_S_original;
   return station;
 }
 

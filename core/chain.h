@@ -106,16 +106,12 @@ class Chain {
   /// What is at one end of an edge, the body or a view's camera: its original pose, and where the last correction that
   /// reached it puts it.
   struct Station {
-    /// Makes the corrected pose, after a new delta.
-    void correct() { T_W_S = T_Wnew_Wold * T_W_S_original; }
-
     Time stamp{};
     std::uint32_t epoch = 0;  ///< of the original
     Pose T_W_S_original;
     CorrectionField::Coverage coverage = CorrectionField::Coverage::kNone;
     std::uint64_t correction_serial = 0;  ///< of that correction, 0 without one
     std::uint32_t world_epoch = 0;        ///< of the pose below
-    Pose T_Wnew_Wold;                     ///< of that correction
     Pose T_W_S;                           ///< corrected, or the original without a correction
   };
   struct Link {
@@ -130,8 +126,8 @@ class Chain {
   ViewOutcome drop(ViewDrop reason);
 
   [[nodiscard]] CorrectionVerdict tryCorrection(const Correction& correction);
-  /// Remembers what moves `station`; its corrected pose is still to be made.
-  void cover(Station& station, const CorrectionField::Delta& delta) const;
+  /// Remembers that the last correction moves `station`; its corrected pose is still to be made.
+  void cover(Station& station, CorrectionField::Coverage coverage) const;
   void correctEdge(Link& older, const Link& newer);
 
   [[nodiscard]] Station stationAt(Time stamp, const Pose& T_W_S_original, std::uint32_t epoch) const;
@@ -152,6 +148,7 @@ class Chain {
   RingBuffer<ViewPtr> waiting_;  ///< oldest at the front
   CorrectionField correction_;
   CorrectionField next_correction_;      ///< room for the one that comes in
+  std::vector<PoseJob> jobs_;            ///< room for a correction
   std::uint64_t correction_serial_ = 0;  ///< counts the accepted corrections
   std::optional<CorrectionId> last_correction_;
   ChainCounters counters_;

@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace nanomap {
+namespace {
+
+const Pose kIdentity;  ///< the delta of what needs no correction
+
+}  // namespace
 
 std::string_view toString(CorrectionVerdict verdict) {
   switch (verdict) {
@@ -29,13 +34,9 @@ std::string_view toString(CorrectionVerdict verdict) {
 CorrectionVerdict checkCorrection(const Correction& correction) {
   if (correction.poses.empty()) return CorrectionVerdict::kEmpty;
   for (std::size_t i = 0; i < correction.poses.size(); ++i) {
-    switch (checkPose(correction.poses[i].T_W_B)) {
-      case PoseVerdict::kNotFinite:
-        return CorrectionVerdict::kNotFinite;
-      case PoseVerdict::kNotUnit:
-        return CorrectionVerdict::kNotUnit;
-      default:
-        break;
+    const Pose& T_W_B = correction.poses[i].T_W_B;
+    if (!isUsable(T_W_B)) {
+      return checkPose(T_W_B) == PoseVerdict::kNotUnit ? CorrectionVerdict::kNotUnit : CorrectionVerdict::kNotFinite;
     }
     if (i > 0 && correction.poses[i].stamp <= correction.poses[i - 1].stamp) return CorrectionVerdict::kNotOrdered;
   }
@@ -46,24 +47,19 @@ void CorrectionField::assign(const Correction& correction, const PoseBuffer& ori
   epoch_ = correction.epoch;
   anchors_.clear();
   anchors_.reserve(correction.poses.size());
-  originals_.clear();
-  originals_.reserve(correction.poses.size());
-  // In passes: what one pose writes is not read again at once, and poses do not wait for one another.
+  jobs_.clear();
+  jobs_.reserve(correction.poses.size());
   PoseBuffer::Walk walk(originals);
   for (const CorrectedPose& corrected : correction.poses) {
     const PoseBuffer::Bracket original = walk.to(corrected.stamp);
     if (original.status != PoseBuffer::LookupStatus::kFound) continue;
-    originals_.push_back(original.T_W_B());
-    anchors_.push_back({corrected.stamp, original.to->epoch, corrected.T_W_B});
+    Anchor& anchor = anchors_.emplace_back();
+    anchor.stamp = corrected.stamp;
+    anchor.epoch = original.to->epoch;
+    jobs_.push_back(
+        {&original.from->T_W_B, original.weight, &original.to->T_W_B, &corrected.T_W_B, &anchor.T_Wnew_Wold});
   }
-  for (std::size_t i = 0; i < anchors_.size(); ++i) {
-    Quat& R_Wnew_Wold = anchors_[i].T_Wnew_Wold.rotation;
-    R_Wnew_Wold = R_Wnew_Wold.normalized() * originals_[i].rotation.conjugate();
-  }
-  for (std::size_t i = 0; i < anchors_.size(); ++i) {
-    Pose& T_Wnew_Wold = anchors_[i].T_Wnew_Wold;
-    T_Wnew_Wold.translation_m -= T_Wnew_Wold.rotation * originals_[i].translation_m;
-  }
+  makeDeltas(jobs_);
 }
 
 CorrectionField::Delta CorrectionField::deltaAt(Time stamp, std::uint32_t epoch) const {
@@ -78,25 +74,25 @@ CorrectionField::Delta CorrectionField::Walk::deltaAt(Time stamp, std::uint32_t 
 }
 
 CorrectionField::Delta CorrectionField::deltaBefore(std::size_t after, Time stamp, std::uint32_t epoch) const {
+  const auto one = [](Coverage coverage, const Pose& delta) { return Delta{coverage, &delta, &delta, 1.0}; };
   if (anchors_.empty() || stamp < anchors_.front().stamp) return {};
   if (after == anchors_.size()) {
     const Anchor& last = anchors_.back();
-    if (last.epoch == epoch) return {Coverage::kCarried, last.T_Wnew_Wold};
+    if (last.epoch == epoch) return one(Coverage::kCarried, last.T_Wnew_Wold);
     // The stream itself has moved to the corrected world since: nothing is left to correct.
-    if (epoch == epoch_) return {Coverage::kCarried, Pose{}};
+    if (epoch == epoch_) return one(Coverage::kCarried, kIdentity);
     return {};
   }
   const Anchor& to = anchors_[after];
-  if (to.stamp == stamp && to.epoch == epoch) return {Coverage::kInside, to.T_Wnew_Wold};
+  if (to.stamp == stamp && to.epoch == epoch) return one(Coverage::kInside, to.T_Wnew_Wold);
   if (after == 0) return {};
   const Anchor& from = anchors_[after - 1];
   if (from.epoch == epoch && to.epoch == epoch) {
-    const double weight = shareOf(stamp, from.stamp, to.stamp);
-    return {Coverage::kInside, interpolate(from.T_Wnew_Wold, to.T_Wnew_Wold, weight)};
+    return {Coverage::kInside, &from.T_Wnew_Wold, &to.T_Wnew_Wold, shareOf(stamp, from.stamp, to.stamp)};
   }
   // The stream's world jumped between the two anchors: each side takes the delta of its own world.
-  if (from.epoch == epoch) return {Coverage::kInside, from.T_Wnew_Wold};
-  if (to.epoch == epoch) return {Coverage::kInside, to.T_Wnew_Wold};
+  if (from.epoch == epoch) return one(Coverage::kInside, from.T_Wnew_Wold);
+  if (to.epoch == epoch) return one(Coverage::kInside, to.T_Wnew_Wold);
   return {};
 }
 

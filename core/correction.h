@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/pose_buffer.h"
+#include "core/pose_jobs.h"
 
 namespace nanomap {
 
@@ -60,9 +61,15 @@ class CorrectionField {
     kInside,   ///< interpolated inside the window
     kCarried,  ///< newer than the window: the last delta
   };
+  /// The deltas around a stamp. Borrows them.
   struct Delta {
     Coverage coverage = Coverage::kNone;
-    Pose T_Wnew_Wold;  ///< identity unless covered
+    const Pose* from = nullptr;  ///< valid if covered
+    const Pose* to = nullptr;    ///< valid if covered, and `from` at its own stamp
+    double weight = 1.0;         ///< of `to`
+
+    /// @pre covered
+    [[nodiscard]] Pose T_Wnew_Wold() const { return from == to ? *to : interpolate(*from, *to, weight); }
   };
 
   /// What to put before an original pose of that epoch, the body's or a camera's.
@@ -97,7 +104,7 @@ class CorrectionField {
 
   std::uint32_t epoch_ = 0;
   std::vector<Anchor> anchors_;
-  std::vector<Pose> originals_;  ///< at the anchors: room for assign()
+  std::vector<PoseJob> jobs_;  ///< room for assign()
 };
 
 }  // namespace nanomap

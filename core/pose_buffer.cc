@@ -41,9 +41,9 @@ std::string_view toString(PoseVerdict verdict) {
 }
 
 PoseVerdict checkPose(const Pose& pose) {
-  if (!pose.translation_m.allFinite() || !pose.rotation.coeffs().allFinite()) return PoseVerdict::kNotFinite;
-  if (std::abs(pose.rotation.norm() - 1.0) > kUnitNormTolerance) return PoseVerdict::kNotUnit;
-  return PoseVerdict::kAccepted;
+  if (isUsable(pose)) return PoseVerdict::kAccepted;
+  const bool finite = pose.translation_m.allFinite() && pose.rotation.coeffs().allFinite();
+  return finite ? PoseVerdict::kNotUnit : PoseVerdict::kNotFinite;
 }
 
 PoseBuffer::PoseBuffer(std::size_t capacity, Duration max_gap) : poses_(capacity), max_gap_(max_gap) {}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -38,6 +39,14 @@ enum class PoseVerdict : std::uint8_t {
 inline constexpr std::size_t kPoseVerdictCount = 7;
 
 [[nodiscard]] std::string_view toString(PoseVerdict verdict);
+
+/// Is `pose` finite with a unit quaternion?
+[[nodiscard]] inline bool isUsable(const Pose& pose) {
+  // The norm's bounds, squared: without the root. What is not finite is not within them.
+  constexpr double kTolerance = kUnitNormTolerance;
+  const bool unit = std::abs(pose.rotation.squaredNorm() - (1.0 + kTolerance * kTolerance)) <= 2.0 * kTolerance;
+  return unit && pose.translation_m.allFinite();
+}
 
 /// kAccepted if `pose` is finite with a unit quaternion, else what is wrong with it.
 [[nodiscard]] PoseVerdict checkPose(const Pose& pose);

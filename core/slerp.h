@@ -5,6 +5,9 @@
 
 namespace nanomap {
 
+/// Of 1 - cos(angle): up to here slerp() takes its series.
+inline constexpr double kGreatestCosineGap = 0x1p-9;
+
 /// Shortest-arc spherical interpolation of unit quaternions: `weight` 0 gives `from`, 1 gives `to`.
 /// Neighbours of a stream lie close together. For them, what slerp multiplies the two with, sin(w a) / sin(a) for an
 /// angle a between the quaternions, is its power series in x = 1 - cos(a), without a trigonometric function:
@@ -13,7 +16,6 @@ namespace nanomap {
 /// @pre 0 <= weight <= 1
 [[nodiscard]] inline Eigen::Quaterniond slerp(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to,
                                               double weight) {
-  constexpr double kGreatestCosineGap = 0x1p-9;
   const double cosine = from.dot(to);
   const double x = 1.0 - std::abs(cosine);
   if (!(x <= kGreatestCosineGap)) return from.slerp(weight, to);
