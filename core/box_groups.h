@@ -32,6 +32,14 @@ struct BoxGroup {
   std::array<std::uint32_t, kGroupBoxes> tile;
 };
 
+/// What is known of sixteen groups.
+struct GroupBounds {
+  BoxBounds boxes;
+  /// Added to the squared distance of a group's bounds it makes a guess at that of the group's nearest point: the wider
+  /// the bounds, and the fewer the boxes in them, the farther from where they begin is what they hold.
+  BoxLanes spread_m2;
+};
+
 /// The hierarchy over one depth image: groups of boxes, each of one block, and the bounds of each group.
 /// Bounds are exact: the least and greatest coordinates, in float arithmetic, of what they hold.
 struct BoxGroups {
@@ -41,8 +49,8 @@ struct BoxGroups {
   explicit BoxGroups(const TileGrid& grid)
       : groups(grid.blockCount() * kMaxGroupsOfBlock), bounds((groups.size() + kGroupBoxes - 1) / kGroupBoxes) {}
 
-  std::vector<BoxGroup> groups;   ///< storage for as many as there can be; the first `count` are in use
-  std::vector<BoxBounds> bounds;  ///< lane i % 16 of element i / 16 holds the bounds of group i
+  std::vector<BoxGroup> groups;     ///< storage for as many as there can be; the first `count` are in use
+  std::vector<GroupBounds> bounds;  ///< lane i % 16 of element i / 16 holds the bounds of group i
   std::size_t count = 0;
 };
 

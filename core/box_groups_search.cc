@@ -28,34 +28,69 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Boxes that may hold something near enough, with how near that can be at best.
 class Candidates {
  public:
-  static constexpr std::size_t kCapacity = 256;
-  using Order = NearOrder<kCapacity>;
-
-  [[nodiscard]] bool hasRoomForGroup() const { return size_ + kGroupBoxes <= kCapacity; }
-
-  /// The boxes numbered from `first_box` on in the lanes that are chosen. @pre there is room for a vector
-  HWY_INLINE void append(std::size_t first_box, FloatVec least_sq_m2, hn::Mask<FloatTag> chosen) {
-    const IndexTag di;
-    // Whole vectors, not CompressStore: what a masked store has written is slow to be read back.
-    hn::StoreU(Order::keysOf(chosenInFront(least_sq_m2, chosen), countingFrom(size_)), di, &keys_[size_]);
-    hn::StoreU(chosenInFront(countingFrom(first_box), hn::RebindMask(di, chosen)), di, &boxes_[size_]);
-    size_ += hn::CountTrue(FloatTag(), chosen);
+  /// The boxes numbered from `first_box` on in the lanes that are chosen. @pre none are kept of more than one group
+  HWY_INLINE void add(std::size_t first_box, FloatVec least_sq_m2, hn::Mask<FloatTag> chosen) {
+    size_ = addAt(size_, first_box, least_sq_m2, chosen);
   }
 
-  /// Visits, nearest first, what is within reach when its turn comes; none is left.
+  /// The boxes within reach of one group after the other, as long as there is room.
+  /// @param distanceAt  least squared distances of a group's boxes from a lane on
+  /// @return how many groups that was; all of them, or one at least if none were kept of more than one group
+  template <class DistanceAt>
+  HWY_INLINE std::size_t addGroups(std::span<const std::int32_t> groups, FloatVec reach_sq_m2, DistanceAt distanceAt) {
+    std::size_t size = size_;  // a copy, which nothing that is stored meanwhile can change
+    std::size_t added = 0;
+    for (; added < groups.size() && size + kGroupBoxes <= kCapacity; ++added) {
+      const auto group = static_cast<std::size_t>(groups[added]);
+      for (std::size_t lane = 0; lane < kGroupBoxes; lane += kLanes) {
+        const FloatVec distance = distanceAt(group, lane);
+        size = addAt(size, group * kGroupBoxes + lane, distance, hn::Le(distance, reach_sq_m2));
+      }
+    }
+    size_ = size;
+    return added;
+  }
+
+  /// Visits what is within reach when its turn comes, nearest first at the beginning; none is left.
   template <class Reach, class Visit>
   HWY_INLINE void visitAll(Reach reach_sq_m2, Visit visit) {
+    // Then reach has come down to where finding the next takes longer than visiting one too many.
+    constexpr int kVisitedInOrder = 6;
     const IndexTag di;
     hn::StoreU(hn::Set(di, Order::kAfterAll), di, &keys_[size_]);
-    Order::Key key = Order::next(keys_.data(), size_, Order::kBeforeAll);
-    while (Order::bound(key) <= reach_sq_m2()) {
-      visit(static_cast<std::size_t>(boxes_[Order::place(key)]));
-      key = Order::next(keys_.data(), size_, key);
+    Order::Key next = Order::next(keys_.data(), size_, Order::kBeforeAll);
+    for (int i = 0; i < kVisitedInOrder && Order::bound(next) <= reach_sq_m2(); ++i) {
+      visit(static_cast<std::size_t>(boxes_[Order::place(next)]));
+      next = Order::next(keys_.data(), size_, next);
+    }
+    if (Order::bound(next) <= reach_sq_m2()) {
+      const IndexVec first = hn::Set(di, next);
+      const IndexVec last = hn::Set(di, Order::lastWithin(reach_sq_m2()));
+      for (std::size_t i = 0; i < size_; i += kLanes) {
+        const IndexVec keys = hn::Load(di, &keys_[i]);
+        const auto is_left = hn::Not(hn::Or(hn::Lt(keys, first), hn::Gt(keys, last)));
+        for (std::uint32_t left = bitsOf(hn::RebindMask(FloatTag(), is_left)); left != 0; left &= left - 1) {
+          visit(static_cast<std::size_t>(boxes_[i + static_cast<std::size_t>(std::countr_zero(left))]));
+        }
+      }
     }
     size_ = 0;
   }
 
  private:
+  static constexpr std::size_t kCapacity = 256;
+  using Order = NearOrder<kCapacity>;
+
+  /// @return the size after it
+  HWY_INLINE std::size_t addAt(std::size_t size, std::size_t first_box, FloatVec least_sq_m2,
+                               hn::Mask<FloatTag> chosen) {
+    const IndexTag di;
+    // Whole vectors, not CompressStore: what a masked store has written is slow to be read back.
+    hn::StoreU(Order::keysOf(chosenInFront(least_sq_m2, chosen), countingFrom(size)), di, &keys_[size]);
+    hn::StoreU(chosenInFront(countingFrom(first_box), hn::RebindMask(di, chosen)), di, &boxes_[size]);
+    return size + hn::CountTrue(FloatTag(), chosen);
+  }
+
   // A vector may be written past the last.
   using Column = std::array<std::int32_t, kCapacity + kGroupBoxes>;
   alignas(64) Column keys_;
@@ -107,16 +142,20 @@ class Search {
     IndexVec keys = hn::Set(di, GroupOrder::kAfterAll);
     IndexVec places = countingFrom(0);
     for (std::size_t group = first; group < end; group += kLanes, places = hn::Add(places, hn::Set(di, kStep))) {
-      const FloatVec distance = leastDistance(indexed_.boxes.bounds[group / kGroupBoxes], group % kGroupBoxes);
+      const GroupBounds& bounds = indexed_.boxes.bounds[group / kGroupBoxes];
+      const FloatVec distance = leastDistance(bounds.boxes, group % kGroupBoxes);
+      const FloatVec spread = hn::Load(d, &bounds.spread_m2[group % kGroupBoxes]);
       hn::Store(distance, d, &least_sq_m2[group - first]);
-      keys = hn::Min(keys, GroupOrder::keysOf(distance, places));
+      keys = hn::Min(keys, GroupOrder::keysOf(hn::Add(distance, spread), places));
     }
-    const GroupOrder::Key nearest = leastLane(keys);
-    if (!(GroupOrder::bound(nearest) <= nearest_.reach())) return;
 
-    // The nearest group's nearest boxes bring the reach down before any other group is opened.
-    least_sq_m2[GroupOrder::place(nearest)] = kInfinity;
-    openNearest(first + GroupOrder::place(nearest));
+    // The nearest boxes of one group bring the reach down before any other is opened: not of the group that begins
+    // nearest, which may be all but empty there, but of the one that is likely to hold something near.
+    const std::size_t likely = GroupOrder::place(leastLane(keys));
+    if (least_sq_m2[likely] <= nearest_.reach()) {
+      least_sq_m2[likely] = kInfinity;
+      openLikely(first + likely);
+    }
 
     const FloatVec reach = hn::Set(d, nearest_.reach());
     alignas(64) std::array<std::int32_t, kSweep + kGroupBoxes> near;
@@ -127,25 +166,12 @@ class Search {
       hn::StoreU(chosenInFront(places, chosen), di, &near[near_count]);
       near_count += hn::CountTrue(di, chosen);
     }
-    for (std::size_t i = 0; i < near_count; ++i) {
-      if (!candidates_.hasRoomForGroup()) visitCandidates();
-      open(static_cast<std::size_t>(near[i]));
-    }
-    visitCandidates();
-  }
-
-  /// Adds a group's boxes within reach to the candidates.
-  HWY_INLINE void open(std::size_t group) {
-    const FloatVec reach = hn::Set(FloatTag(), nearest_.reach());
-    for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
-      const FloatVec distance = leastDistance(indexed_.boxes.groups[group].bounds, i);
-      candidates_.append(group * kGroupBoxes + i, distance, hn::Le(distance, reach));
-    }
+    open(std::span(near).first(near_count));
   }
 
   /// Visits the nearest boxes of a group, and adds the others within reach to the candidates.
-  HWY_INLINE void openNearest(std::size_t group) {
-    /// Two bring the reach further down than what the second one costs when the first would have done.
+  HWY_INLINE void openLikely(std::size_t group) {
+    // The second one brings the reach down by more than it costs; a third one does not.
     constexpr int kVisitedFirst = 2;
     const FloatTag d;
     const IndexTag di;
@@ -156,10 +182,12 @@ class Search {
       hn::Store(distance, d, &least_sq_m2[i]);
       hn::Store(BoxOrder::keysOf(distance, countingFrom(i)), di, &keys[i]);
     }
+    // By the reach as it was before, so that they need not wait for one another.
+    const float reach_before = nearest_.reach();
     BoxOrder::Key visited = BoxOrder::kBeforeAll;
     for (int i = 0; i < kVisitedFirst; ++i) {
       const BoxOrder::Key key = BoxOrder::next(keys.data(), keys.size(), visited);
-      if (!(BoxOrder::bound(key) <= nearest_.reach())) break;
+      if (!(BoxOrder::bound(key) <= reach_before)) break;
       visit(group * kGroupBoxes + BoxOrder::place(key));
       visited = key;
     }
@@ -167,12 +195,20 @@ class Search {
     for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
       const FloatVec distance = hn::Load(d, &least_sq_m2[i]);
       const auto left = hn::RebindMask(d, hn::Gt(hn::Load(di, &keys[i]), hn::Set(di, visited)));
-      candidates_.append(group * kGroupBoxes + i, distance, hn::And(hn::Le(distance, reach), left));
+      candidates_.add(group * kGroupBoxes + i, distance, hn::And(hn::Le(distance, reach), left));
     }
   }
 
-  HWY_INLINE void visitCandidates() {
-    candidates_.visitAll([this] { return nearest_.reach(); }, [this](std::size_t box) { visit(box); });
+  /// Visits the boxes of groups that are within reach, and the candidates there are.
+  HWY_INLINE void open(std::span<const std::int32_t> groups) {
+    do {
+      const FloatVec reach = hn::Set(FloatTag(), nearest_.reach());
+      const std::size_t opened = candidates_.addGroups(groups, reach, [this](std::size_t group, std::size_t lane) {
+        return leastDistance(indexed_.boxes.groups[group].bounds, lane);
+      });
+      groups = groups.subspan(opened);
+      candidates_.visitAll([this] { return nearest_.reach(); }, [this](std::size_t box) { visit(box); });
+    } while (!groups.empty());
   }
 
   /// Looks at the pixels of a box, given by number: those of its tile with its raw depths.

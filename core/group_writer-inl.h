@@ -20,6 +20,10 @@ namespace nanomap::HWY_NAMESPACE {
 /// A block whose boxes' depths spread over more than this part of the least has two groups, split halfway.
 constexpr float kBlockSpread = 0.25F;
 
+/// A group's spread is this part of its diagonal squared, divided by the number of its boxes: tests/bench/README.md has
+/// how near searches begin with it.
+constexpr float kSpread = 0.8F;
+
 /// Sets of a block's tiles, one bit each.
 using TileSet = std::uint32_t;
 
@@ -63,7 +67,8 @@ class GroupWriter {
     const std::size_t size = chosen.size();
     if (size == 0) return;
     BoxGroup& group = out_.groups[out_.count];
-    BoxBounds& bounds = out_.bounds[out_.count / kGroupBoxes];
+    GroupBounds& of_groups = out_.bounds[out_.count / kGroupBoxes];
+    BoxBounds& bounds = of_groups.boxes;
     const std::size_t lane = out_.count % kGroupBoxes;
     const FloatTag d;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -85,6 +90,7 @@ class GroupWriter {
       });
       bounds.high_m[axis][lane] = greatestLane(high);
     }
+    of_groups.spread_m2[lane] = kSpread * diagonal_m2(bounds, lane) / static_cast<float>(size);
     gather(boxes.near.raw_low, boxes.far.raw_low, chosen);
     storeRaw(size, group.raw_low);
     gather(boxes.near.raw_high, boxes.far.raw_high, chosen);
@@ -102,7 +108,7 @@ class GroupWriter {
   /// Marks what the last vector of bounds has left over.
   void finish() {
     for (std::size_t group = out_.count; group % kGroupBoxes != 0; ++group) {
-      BoxBounds& bounds = out_.bounds[group / kGroupBoxes];
+      BoxBounds& bounds = out_.bounds[group / kGroupBoxes].boxes;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         bounds.low_m[axis][group % kGroupBoxes] = bounds.high_m[axis][group % kGroupBoxes] = BoxBounds::kNoBox_m;
       }
@@ -110,6 +116,15 @@ class GroupWriter {
   }
 
  private:
+  static float diagonal_m2(const BoxBounds& bounds, std::size_t lane) {
+    float sum_m2 = 0.0F;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float extent_m = bounds.high_m[axis][lane] - bounds.low_m[axis][lane];
+      sum_m2 += extent_m * extent_m;
+    }
+    return sum_m2;
+  }
+
   /// Moves the chosen lanes to the front of lanes_.
   HWY_INLINE void gather(const BoxLanes& near, const BoxLanes& far, BoxSet chosen) {
     const FloatTag d;

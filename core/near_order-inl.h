@@ -48,6 +48,9 @@ class NearOrder {
     return leastLane(least);
   }
 
+  /// No key whose bound is within reach is greater, and no other is less.
+  [[nodiscard]] static Key lastWithin(float reach_sq_m2) { return std::bit_cast<Key>(reach_sq_m2) | (kPlaces - 1); }
+
   /// At most the key's distance, and less by a few bits; not a number for kAfterAll.
   [[nodiscard]] static float bound(Key key) { return std::bit_cast<float>(key & ~(kPlaces - 1)); }
   [[nodiscard]] static std::size_t place(Key key) { return static_cast<std::size_t>(key & (kPlaces - 1)); }
