@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -65,6 +66,9 @@ HWY_INLINE V chosenInFront(V v, Mask mask) {
 HWY_INLINE float leastLane(FloatVec v) { return hn::GetLane(hn::MinOfLanes(FloatTag(), v)); }
 HWY_INLINE float greatestLane(FloatVec v) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), v)); }
 HWY_INLINE std::int32_t leastLane(IndexVec v) { return hn::GetLane(hn::MinOfLanes(IndexTag(), v)); }
+
+/// The same for lanes that are zero or more: their bits order as they do, and integers compare sooner.
+HWY_INLINE float leastOfPositive(FloatVec v) { return std::bit_cast<float>(leastLane(hn::BitCast(IndexTag(), v))); }
 
 alignas(64) constexpr std::array<std::int32_t, kGroupBoxes> kCounting = {0, 1, 2,  3,  4,  5,  6,  7,
                                                                          8, 9, 10, 11, 12, 13, 14, 15};

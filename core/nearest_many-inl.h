@@ -61,11 +61,11 @@ struct alignas(64) TileDistances {
       const auto enough = hn::RebindMask(d, hn::Not(hn::Gt(not_farther, wanted)));
       kth = hn::Min(kth, hn::IfThenElse(enough, candidate, kth));
     }
-    return leastLane(kth);
+    return leastOfPositive(kth);
   }
 };
 
-/// The k nearest pixels for any k up to kMaxNeighbours. A pixel is inserted into all places at once, without a branch.
+/// The k nearest pixels for any k up to kMaxNeighbours. Pixels are inserted into all places at once, without a branch.
 class NearestMany {
  public:
   NearestMany(float limit_sq_m2, std::size_t k) : k_(k), reach_sq_m2_(limit_sq_m2) {
@@ -115,25 +115,46 @@ class NearestMany {
   }
   static std::uint32_t pixelOf(Key key) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(key)); }
 
+  /// To move lanes on, the last ones to the front.
+  static HWY_INLINE auto rotationBy(std::size_t lanes) {
+    alignas(64) std::array<std::int64_t, kKeyLanes> from;
+    for (std::size_t i = 0; i < kKeyLanes; ++i)
+      from[i] = static_cast<std::int64_t>((i + kKeyLanes - lanes) % kKeyLanes);
+    return hn::SetTableIndices(KeyTag(), from.data());
+  }
+
+  /// Two at a time: a key is the least of what was in its place, of what was one place before or the lesser of the two,
+  /// whichever is greater, and of what was two places before or the greater of the two.
   HWY_INLINE void insert(std::uint32_t first_pixel, const TileDistances& distances, std::uint64_t places) {
     const KeyTag d;
-    constexpr auto kLast = static_cast<std::int64_t>(kKeyLanes) - 1;
-    alignas(64) std::array<std::int64_t, kKeyLanes> lane_before;
-    for (std::size_t i = 0; i < kKeyLanes; ++i) lane_before[i] = i == 0 ? kLast : static_cast<std::int64_t>(i) - 1;
-    const auto rotation = hn::SetTableIndices(d, lane_before.data());
+    const auto by_one = rotationBy(1);
+    const auto by_two = rotationBy(2);
     const auto first_lane = hn::FirstN(d, 1);
+    const auto first_two_lanes = hn::FirstN(d, 2);
+    const auto takeKey = [&] {
+      if (places == 0) return keyOf(std::numeric_limits<float>::infinity(), kNoPixel);
+      const auto place = static_cast<std::size_t>(std::countr_zero(places));
+      places &= places - 1;
+      return keyOf(distances.sq_m2[place], first_pixel + static_cast<std::uint32_t>(place));
+    };
 
     KeyVec keys[kKeyVectors];
     for (std::size_t i = 0; i < kKeyVectors; ++i) keys[i] = hn::Load(d, &keys_[i * kKeyLanes]);
-    for (; places != 0; places &= places - 1) {
-      const auto place = static_cast<std::size_t>(std::countr_zero(places));
-      const KeyVec key = hn::Set(d, keyOf(distances.sq_m2[place], first_pixel + static_cast<std::uint32_t>(place)));
-      // What is before the key stays, what is after it moves one place on.
-      KeyVec carry = hn::Zero(d);
+    while (places != 0) {
+      const KeyVec a = hn::Set(d, takeKey());
+      const KeyVec b = hn::Set(d, takeKey());
+      const KeyVec lesser = hn::Min(a, b);
+      const KeyVec greater = hn::Max(a, b);
+      KeyVec carry_one = hn::Zero(d);
+      KeyVec carry_two = hn::Zero(d);
       for (KeyVec& of : keys) {
-        const KeyVec rotated = hn::TableLookupLanes(of, rotation);
-        of = hn::Min(of, hn::Max(key, hn::IfThenElse(first_lane, carry, rotated)));
-        carry = rotated;
+        const KeyVec one_on = hn::TableLookupLanes(of, by_one);
+        const KeyVec two_on = hn::TableLookupLanes(of, by_two);
+        const KeyVec one_before = hn::IfThenElse(first_lane, carry_one, one_on);
+        const KeyVec two_before = hn::IfThenElse(first_two_lanes, carry_two, two_on);
+        of = hn::Min(of, hn::Min(hn::Max(lesser, one_before), hn::Max(greater, two_before)));
+        carry_one = one_on;
+        carry_two = two_on;
       }
     }
     for (std::size_t i = 0; i < kKeyVectors; ++i) hn::Store(keys[i], d, &keys_[i * kKeyLanes]);

@@ -6,6 +6,7 @@
 #define NANOMAP_CORE_NEAREST_ONE_INL_H_
 #endif
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -22,44 +23,45 @@ namespace nanomap::HWY_NAMESPACE {
 class NearestOne {
  public:
   HWY_INLINE explicit NearestOne(float limit_sq_m2)
-      : distance_sq_m2_(hn::Set(FloatTag(), limit_sq_m2)), pixel_(hn::Set(IndexTag(), kNoPixel)) {}
+      : bits_(hn::Set(IndexTag(), std::bit_cast<std::int32_t>(limit_sq_m2))), pixel_(hn::Set(IndexTag(), kNoPixel)) {}
 
   /// Nothing farther can be the nearest; at this distance a pixel with a lower number can.
-  [[nodiscard]] HWY_INLINE float reach() const { return leastLane(distance_sq_m2_); }
+  [[nodiscard]] HWY_INLINE float reach() const { return std::bit_cast<float>(leastLane(bits_)); }
 
   /// @param distanceAt  squared distances of the tile's pixels from a place on
   template <class DistanceAt>
   HWY_INLINE void addTile(std::uint32_t first_pixel, DistanceAt distanceAt) {
-    const FloatTag d;
     const IndexTag di;
-    FloatVec nearest = distanceAt(std::size_t{0});
+    const auto bitsAt = [&](std::size_t i) { return hn::BitCast(di, distanceAt(i)); };
+    IndexVec nearest = bitsAt(std::size_t{0});
     IndexVec place = hn::Zero(di);
+    HWY_UNROLL(4)
     for (std::size_t i = kLanes; i < TileGrid::kTilePixels; i += kLanes) {
-      const FloatVec distance = distanceAt(i);
-      const auto nearer = hn::RebindMask(di, hn::Lt(distance, nearest));
-      place = hn::IfThenElse(nearer, hn::Set(di, static_cast<std::int32_t>(i)), place);
+      const IndexVec distance = bitsAt(i);
+      place = hn::IfThenElse(hn::Lt(distance, nearest), hn::Set(di, static_cast<std::int32_t>(i)), place);
       nearest = hn::Min(distance, nearest);
     }
     const IndexVec pixel = hn::Add(place, countingFrom(first_pixel));
-    const auto equal_and_before = hn::And(hn::Eq(nearest, distance_sq_m2_), hn::RebindMask(d, hn::Lt(pixel, pixel_)));
-    const auto better = hn::Or(hn::Lt(nearest, distance_sq_m2_), equal_and_before);
-    distance_sq_m2_ = hn::Min(nearest, distance_sq_m2_);
-    pixel_ = hn::IfThenElse(hn::RebindMask(di, better), pixel, pixel_);
+    const auto equal_and_before = hn::And(hn::Eq(nearest, bits_), hn::Lt(pixel, pixel_));
+    const auto better = hn::Or(hn::Lt(nearest, bits_), equal_and_before);
+    bits_ = hn::Min(nearest, bits_);
+    pixel_ = hn::IfThenElse(better, pixel, pixel_);
   }
 
   std::size_t copyTo(std::span<FoundPixel> out) const {
-    const float least = reach();
-    const auto at_least = hn::RebindMask(IndexTag(), hn::Eq(distance_sq_m2_, hn::Set(FloatTag(), least)));
+    const std::int32_t least = leastLane(bits_);
+    const auto at_least = hn::Eq(bits_, hn::Set(IndexTag(), least));
     const std::int32_t pixel = leastLane(hn::IfThenElse(at_least, pixel_, hn::Set(IndexTag(), kNoPixel)));
     if (pixel == kNoPixel) return 0;
-    out[0] = {least, static_cast<std::uint32_t>(pixel)};
+    out[0] = {std::bit_cast<float>(least), static_cast<std::uint32_t>(pixel)};
     return 1;
   }
 
  private:
   static constexpr std::int32_t kNoPixel = std::numeric_limits<std::int32_t>::max();
 
-  FloatVec distance_sq_m2_;
+  /// Of the squared distances [m^2], which are not negative: they order as the floats do, and integers compare sooner.
+  IndexVec bits_;
   IndexVec pixel_;
 };
 
