@@ -17,4 +17,13 @@ namespace nanomap {
 [[nodiscard]] bool isOpen(const View& view, const PixelRect& gap, double z_m, const Vec3& up_C,
                           const QueryOptions& options);
 
+/// A glance at a few tiles above a pixel without depth: is one of them near enough that isOpen() denies it sky, at any
+/// depth? What it leaves is for isOpen(). Costs a tenth of it, and sees most holes.
+/// @pre `pixel` lies inside the image, and liesBelowGlance(up_C) holds for the direction against gravity
+/// Allocates: no. Threads: any number of readers.
+[[nodiscard]] bool isHoleAtGlance(const View& view, CameraModel::Pixel pixel, const QueryOptions& options);
+
+/// Is a pixel level with all of the tiles that isHoleAtGlance() looks at, or lower? The camera may roll by 28 degrees.
+[[nodiscard]] bool liesBelowGlance(const Vec3& up_C);
+
 }  // namespace nanomap

@@ -12,6 +12,7 @@ Location locate(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const 
   if (endsSearch(newest.status)) return newest;
   ViewFilter::Walk candidates(snapshot.filter, snapshot.views.size(), x_B, 1);
   while (const auto i = candidates.next()) {
+    if (candidates.isBeforeHole(options)) continue;
     const Status status = classify(snapshot.views[*i], x_B, options);
     if (endsSearch(status)) return {status, i};
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/open_sky.h"
 #include "core/view_scan.h"
 
 namespace nanomap {
@@ -71,6 +72,7 @@ void setLane(ViewLanes& lanes, std::size_t lane, const SnapshotView& view) {
   lanes.column_cover[lane] = view.view->tiles().columnCover().data();
   lanes.view[lane] = view.view.get();
   if (camera.parameters().distortion.isZero()) lanes.tiled |= 1U << lane;
+  if (liesBelowGlance(view.up_C)) lanes.upright |= 1U << lane;
 }
 
 ViewLanes withoutViews() {
@@ -127,10 +129,10 @@ std::optional<std::uint32_t> ViewFilter::Walk::next() {
       if (block_ == lanes_.size()) return std::nullopt;
       ++block_;
     }
-    const auto lane = static_cast<std::uint32_t>(std::countr_zero(probed_.left));
+    lane_ = static_cast<std::uint32_t>(std::countr_zero(probed_.left));
     probed_.left &= probed_.left - 1;
-    const auto view_index = static_cast<std::uint32_t>((block_ - 1) * kViewLanes) + lane;
-    if (view_index >= first_ && !isOccluded(lanes_[block_ - 1], lane)) return view_index;
+    const auto view_index = static_cast<std::uint32_t>((block_ - 1) * kViewLanes) + lane_;
+    if (view_index >= first_ && !isOccluded(lanes_[block_ - 1], lane_)) return view_index;
   }
 }
 
@@ -141,6 +143,16 @@ bool ViewFilter::Walk::isOccluded(const ViewLanes& lanes, std::uint32_t lane) co
   const CameraModel::Pixel pixel = view.camera().pixelOfCell({probed_.column[lane], probed_.row[lane]});
   const std::uint16_t raw = view.rawAt(pixel.u, pixel.v);
   return probed_.raw[lane] >= raw && view.camera().classify(raw) != DepthReading::kNone;
+}
+
+bool ViewFilter::Walk::isBeforeHole(const QueryOptions& options) const {
+  if (lanes_.empty()) return false;
+  const ViewLanes& lanes = lanes_[block_ - 1];
+  if ((probed_.in_cell & lanes.upright & 1U << lane_) == 0) return false;
+  const View& view = *lanes.view[lane_];
+  const CameraModel::Pixel pixel = view.camera().pixelOfCell({probed_.column[lane_], probed_.row[lane_]});
+  const std::uint16_t raw = view.rawAt(pixel.u, pixel.v);
+  return view.camera().classify(raw) == DepthReading::kNone && isHoleAtGlance(view, pixel, options);
 }
 
 }  // namespace nanomap

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry.h"
+#include "core/query_options.h"
 #include "core/snapshot_view.h"
 #include "core/view_lanes.h"
 
@@ -41,13 +42,17 @@ class ViewFilter {
     /// The next view; empty behind the last.
     [[nodiscard]] std::optional<std::uint32_t> next();
 
+    /// Is the mean certainly before a hole, in the view that next() gave last?
+    [[nodiscard]] bool isBeforeHole(const QueryOptions& options) const;
+
    private:
     [[nodiscard]] bool isOccluded(const ViewLanes& lanes, std::uint32_t lane) const;
 
     std::span<const ViewLanes> lanes_;  ///< none: nothing is ruled out
     std::uint32_t view_count_;
-    std::uint32_t first_;    ///< views before it are of no interest
-    std::size_t block_ = 0;  ///< the block behind that of `probed_`
+    std::uint32_t first_;     ///< views before it are of no interest
+    std::size_t block_ = 0;   ///< the block behind that of `probed_`
+    std::uint32_t lane_ = 0;  ///< there, of the view that next() gave last
     PointProbe probe_;
     ProbedLanes probed_;
   };

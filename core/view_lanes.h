@@ -28,7 +28,8 @@ struct alignas(64) ViewLanes {
   std::array<const DepthTiles::Cover*, kViewLanes> cover;  ///< of DepthTiles, as the next
   std::array<const std::uint16_t*, kViewLanes> column_cover;
   std::array<const View*, kViewLanes> view;
-  std::uint32_t tiled = 0;  ///< bits of the lanes whose cells are pixels: no distortion
+  std::uint32_t tiled = 0;    ///< bits of the lanes whose cells are pixels: no distortion
+  std::uint32_t upright = 0;  ///< bits of the lanes where liesBelowGlance() holds
 };
 
 /// An uncertain point as the filter takes it: rounded, with what rounding can do to it.
