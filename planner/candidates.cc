@@ -15,6 +15,7 @@ Candidates::Candidates(const PlannerParameters& parameters, const PrimitiveLibra
       objective_(parameters.objective, goal, at_start_W.position_m),
       start_(start),
       at_start_W_(at_start_W),
+      start_evidence_(space_.assess(at_start_W, 0.0)),
       R_W_L_(levelAxes(yaw_W_rad)) {}
 
 Vec3 Candidates::acceleration_L(std::uint32_t index) const {
@@ -50,7 +51,7 @@ Proposal Candidates::propose(std::uint32_t index) const {
 }
 
 TrajectoryRisk Candidates::assessBrake(std::uint32_t index) const {
-  return space_.assess(brake(index), parameters_.brake_samples, false);
+  return space_.assess(brake(index), parameters_.brake_samples, false, nullptr, &start_evidence_);
 }
 
 Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* evidence) const {
@@ -63,8 +64,8 @@ Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* eviden
       return verdict;
     }
   }
-  verdict.motion =
-      space_.assess(trajectory, parameters_.samples, stop_early, evidence != nullptr ? &evidence->motion : nullptr);
+  verdict.motion = space_.assess(trajectory, parameters_.samples, stop_early,
+                                 evidence != nullptr ? &evidence->motion : nullptr, &start_evidence_);
   verdict.veto = verdict.motion.veto;
   if (!verdict.veto && index != kBrake && !verdict.motion.last.leadsOut()) {
     verdict.veto = VetoCause{verdict.motion.last.status};
@@ -73,7 +74,7 @@ Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* eviden
 
   verdict.stop = index == kBrake ? verdict.motion
                                  : space_.assess(brake(index), parameters_.brake_samples, stop_early,
-                                                 evidence != nullptr ? &evidence->brake : nullptr);
+                                                 evidence != nullptr ? &evidence->brake : nullptr, &start_evidence_);
   verdict.veto = verdict.stop->veto;
   const SampleEvidence& end = verdict.stop->last;
   if (!verdict.veto && !end.seenFree()) verdict.veto = VetoCause{end.status};

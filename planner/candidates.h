@@ -70,6 +70,7 @@ class Candidates {
   Objective objective_;
   Time start_;
   Motion at_start_W_;
+  SampleEvidence start_evidence_;  ///< shared: all candidates, and all brakes, begin there
   Mat3 R_W_L_;
 };
 

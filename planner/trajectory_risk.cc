@@ -117,31 +117,34 @@ std::optional<TrajectoryRisk> SpaceAhead::glance(const Trajectory& trajectory, i
 }
 
 TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, bool stop_early,
-                                  std::vector<SampleEvidence>* evidence) const {
+                                  std::vector<SampleEvidence>* evidence, const SampleEvidence* start) const {
   const double duration_s = trajectory.duration_s();
   const double radius_m = parameters_.collision.vehicle_radius_m;
   RiskTally tally(parameters_.max_risk);
-  const auto assessAt = [&](double elapsed_s) {
-    const SampleEvidence sample = assess(trajectory.sample(elapsed_s), elapsed_s, stop_early);
+  const auto add = [&](const SampleEvidence& sample) {
     tally.add(sample);
     if (evidence != nullptr) evidence->push_back(sample);
     return sample;
   };
+  const auto assessAt = [&](const Motion& motion_W, double elapsed_s) {
+    return add(assess(motion_W, elapsed_s, stop_early));
+  };
   const auto decided = [&] { return stop_early && tally.isVetoed(); };
 
-  const SampleEvidence first = assessAt(0.0);
+  const SampleEvidence first = start != nullptr ? add(*start) : assessAt(trajectory.atStart(), 0.0);
   SampleEvidence last = first;
   Vec3 previous_W_m = first.position_W_m;
   for (int i = 1; i <= samples && !decided(); ++i) {
     const double begin_s = duration_s * (i - 1) / samples;
     const double end_s = duration_s * i / samples;
-    const Vec3 next_W_m = trajectory.sample(end_s).position_m;
-    const int parts = std::max(static_cast<int>(std::ceil((next_W_m - previous_W_m).norm() / radius_m)), 1);
+    const Motion next_W = trajectory.sample(end_s);
+    const int parts = std::max(static_cast<int>(std::ceil((next_W.position_m - previous_W_m).norm() / radius_m)), 1);
     for (int part = 1; part < parts && !decided(); ++part) {
-      last = assessAt(std::lerp(begin_s, end_s, static_cast<double>(part) / parts));
+      const double elapsed_s = std::lerp(begin_s, end_s, static_cast<double>(part) / parts);
+      last = assessAt(trajectory.sample(elapsed_s), elapsed_s);
     }
-    if (!decided()) last = assessAt(end_s);
-    previous_W_m = next_W_m;
+    if (!decided()) last = assessAt(next_W, end_s);
+    previous_W_m = next_W.position_m;
   }
   return tally.result(first, last);
 }

@@ -106,8 +106,10 @@ class SpaceAhead {
   /// radius: so that neither a thin obstacle nor a hole as wide as the vehicle falls between two samples.
   /// @param stop_early  stop as soon as the risk is above the constraint
   /// @param evidence    if given, every sample is appended, in the order of evaluation (allocates)
+  /// @param start       assess() of the trajectory's start, if that is known: many may start alike
   [[nodiscard]] TrajectoryRisk assess(const Trajectory& trajectory, int samples, bool stop_early,
-                                      std::vector<SampleEvidence>* evidence = nullptr) const;
+                                      std::vector<SampleEvidence>* evidence = nullptr,
+                                      const SampleEvidence* start = nullptr) const;
 
   /// The veto of the first of a few samples of assess(), far apart, that is above the constraint all by itself; empty
   /// if none is. Soon finds most of what assess() would veto after many. `first` and `last` are that sample.

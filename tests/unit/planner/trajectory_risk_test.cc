@@ -128,6 +128,22 @@ TEST(SpaceAhead, SamplesAreInsertedWhereSomethingIsNear) {
   EXPECT_EQ(evidence.size(), 7U) << "two steps of a metre, each in parts of at most 0.4 m";
 }
 
+TEST(SpaceAhead, AKnownStartTakesTheFirstSamplesPlace) {
+  const Seen seen(DrawnWorld{{Block{{4.0, -3.0, 0.0}, {4.3, 3.0, 8.0}}}});
+  const Trajectory way = straight({1.2, 0.0, 0.0});
+  SampleEvidence start = seen.space().assess(way.atStart(), 0.0);
+  const TrajectoryRisk alone = seen.space().assess(way, 20, false);
+  std::vector<SampleEvidence> evidence;
+  const TrajectoryRisk shared = seen.space().assess(way, 20, false, &evidence, &start);
+  EXPECT_EQ(evidence.size(), 21U);
+  EXPECT_EQ(shared.risk, alone.risk);
+  EXPECT_EQ(shared.least_distance_m, alone.least_distance_m);
+  EXPECT_EQ(shared.first.nearest_m, alone.first.nearest_m);
+
+  start.risk = 1.0;
+  EXPECT_EQ(seen.space().assess(way, 20, true, nullptr, &start).risk, 1.0) << "it is not asked for again";
+}
+
 TEST(SpaceAhead, AGlanceVetoesOnlyWhatAWholeLookVetoes) {
   const Seen seen(DrawnWorld{{Block{{5.0, -4.0, 0.0}, {5.3, -2.0, 8.0}}}});
   const SpaceAhead space = seen.space();
