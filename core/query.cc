@@ -19,16 +19,23 @@ Location locate(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const 
   return newest;
 }
 
-QueryReply nearestAt(const ChainSnapshot& snapshot, const Location& location, const UncertainPoint& x_B,
-                     const QueryOptions& options, float max_distance_m) {
+namespace {
+
+/// nearestAt(), written where the reply is wanted.
+void answerAt(const ChainSnapshot& snapshot, const Location& location, const UncertainPoint& x_B,
+              const QueryOptions& options, float max_distance_m, QueryReply& reply) {
   assert(options.k >= 1 && options.k <= kMaxNeighbours);
-  QueryReply reply;
   reply.status = location.status;
   reply.view_index = location.view_index;
+  reply.certified.reset();
   if (options.certify) {
     reply.certified = certifiedClearance(snapshot, x_B.mean_m, options, static_cast<double>(max_distance_m));
   }
-  if (!location.view_index) return reply;
+  reply.neighbour_count = 0;
+  if (!location.view_index) {
+    reply.x_C = {};
+    return;
+  }
 
   const SnapshotView& view = snapshot.views[*location.view_index];
   reply.x_C = view.toCamera(x_B);
@@ -39,6 +46,14 @@ QueryReply nearestAt(const ChainSnapshot& snapshot, const Location& location, co
     const auto nearest_m = static_cast<double>(reply.neighbours.front().distance_m);
     reply.certified->radius_m = std::min(reply.certified->radius_m, nearest_m);
   }
+}
+
+}  // namespace
+
+QueryReply nearestAt(const ChainSnapshot& snapshot, const Location& location, const UncertainPoint& x_B,
+                     const QueryOptions& options, float max_distance_m) {
+  QueryReply reply;
+  answerAt(snapshot, location, x_B, options, max_distance_m, reply);
   return reply;
 }
 
@@ -70,7 +85,7 @@ void queryBatch(const ChainSnapshot& snapshot, std::span<const UncertainPoint> p
   for (std::size_t i = 0; i < points_B.size(); ++i) locations[i] = locate(snapshot, points_B[i], options);
   for (const std::uint32_t i : scratch.orderByView(locations, std::max<std::size_t>(snapshot.views.size(), 1))) {
     const float max_distance_m = max_distances_m.empty() ? NearestPointIndex::kAnyDistance : max_distances_m[i];
-    replies[i] = nearestAt(snapshot, locations[i], points_B[i], options, max_distance_m);
+    answerAt(snapshot, locations[i], points_B[i], options, max_distance_m, replies[i]);
   }
 }
 

@@ -28,11 +28,13 @@ struct QueryReply {
   Status status = Status::kEmpty;
   std::optional<std::uint32_t> view_index;  ///< in the snapshot, 0 the newest; empty with kEmpty
   UncertainPoint x_C;                       ///< the point in that view's camera frame
-  std::uint32_t neighbour_count = 0;
-  std::array<Neighbour, kMaxNeighbours> neighbours;  ///< the first `neighbour_count`, by ascending distance
   /// With QueryOptions::certify: space is known to be empty this far around the point's mean, and no farther than the
   /// nearest neighbour. A nearest neighbour alone knows nothing of what lies outside its view, or hidden in it.
   std::optional<CertifiedClearance> certified;
+  std::uint32_t neighbour_count = 0;
+  /// The first `neighbour_count`, by ascending distance. Last, for what lies behind those is not touched by a batch:
+  /// with few neighbours that is most of a reply.
+  std::array<Neighbour, kMaxNeighbours> neighbours;
 
   [[nodiscard]] std::span<const Neighbour> found() const { return {neighbours.data(), neighbour_count}; }
 };
@@ -72,7 +74,8 @@ class QueryScratch {
 };
 
 /// Queries a batch, a primitive's samples or a whole plan's: `replies[i]` answers `points_B[i]` as query() does. All
-/// points are placed first and then searched for view by view, so that each view's index is fetched once.
+/// points are placed first and then searched for view by view, so that each view's index is fetched once. Of `replies`,
+/// neighbours behind those that are found are not specified.
 /// @param max_distances_m  of each point's neighbours; empty: as far as there are any
 /// @pre as many replies as points, and as many distances unless there are none
 /// A caller that may stop early places its points with locate(), and asks nearestAt() for those that still matter.
