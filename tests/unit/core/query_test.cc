@@ -221,6 +221,18 @@ TEST(Query, ABatchWithoutAViewIsEmpty) {
   for (const QueryReply& reply : replies) EXPECT_EQ(reply.status, Status::kEmpty);
 }
 
+TEST_F(TurningFlight, ABatchLeavesNothingOfEarlierReplies) {
+  const std::array<UncertainPoint, 1> points_B{UncertainPoint{Vec3(2.0, 0.0, 0.0), 0.01 * Mat3::Identity()}};
+  std::array<QueryReply, 1> replies;
+  QueryScratch scratch;
+  queryBatch(snapshot_, points_B, {.certify = true}, scratch, replies);
+  ASSERT_GT(replies[0].neighbour_count, 0U);
+  ASSERT_TRUE(replies[0].certified);
+  queryBatch(ChainSnapshot{}, points_B, {}, scratch, replies);
+  expectSame(replies[0], query(ChainSnapshot{}, points_B[0], {}));
+  EXPECT_FALSE(replies[0].certified);
+}
+
 TEST_F(TurningFlight, StatisticsTellHowFarBackAnswersCameFrom) {
   QueryStatistics statistics(kViews);
   EXPECT_EQ(statistics.shareContainedWithin(kViews), 0.0);
