@@ -8,6 +8,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import matplotlib.ticker
 
 REACHED = "#2a7f62"
 SHORT = "#c4622d"
@@ -23,11 +24,12 @@ def draw_ratios(results, file):
     axes.barh(places, [row["value"] for row in rows], color=colors, height=0.7)
     for place, row in zip(places, rows):
         axes.plot([row["bar"], row["bar"]], [place - 0.4, place + 0.4], color="black", linewidth=1.5)
-        axes.annotate(f"{row['value']:.3g}x", (row["value"], place), xytext=(-4, 0), textcoords="offset points",
-                      va="center", ha="right", fontsize=8, color="white")
+        axes.annotate(f"{row['value']:.3g}x", (max(row["value"], row["bar"]), place), xytext=(5, 0),
+                      textcoords="offset points", va="center", fontsize=8)
     axes.set_yticks(list(places), [row["name"] for row in rows], fontsize=8)
     axes.set_xscale("log")
-    axes.axvline(1.0, color="grey", linewidth=0.8)
+    axes.xaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    axes.set_xlim(left=1.0)
     axes.set_xlabel("times faster than the reference, the worst of four scenes (line: the bar)")
     axes.set_title(f"{results['processor']}, {results['date']}", fontsize=9)
     axes.spines[["top", "right"]].set_visible(False)

@@ -13,8 +13,8 @@
 namespace nanomap::bench {
 namespace {
 
-/// In one run: one takes microseconds.
-constexpr int kRepeats = 10;
+/// In one run: one takes microseconds, and what else the machine does would tip a run as short as ten.
+constexpr int kRepeats = 200;
 
 /// Poses that drift away from the original ones, slowly, from just before the first view to just after the last.
 Correction driftingWindow(const ChainFixture& fixture, const PoseBuffer& poses) {
