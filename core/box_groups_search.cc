@@ -60,8 +60,10 @@ class Candidates {
     hn::StoreU(hn::Set(di, Order::kAfterAll), di, &keys_[size_]);
     Order::Key next = Order::next(keys_.data(), size_, Order::kBeforeAll);
     for (int i = 0; i < kVisitedInOrder && Order::bound(next) <= reach_sq_m2(); ++i) {
-      visit(static_cast<std::size_t>(boxes_[Order::place(next)]));
+      // What comes after it is found first, else that would wait for the visit.
+      const std::size_t place = Order::place(next);
       next = Order::next(keys_.data(), size_, next);
+      visit(static_cast<std::size_t>(boxes_[place]));
     }
     if (Order::bound(next) <= reach_sq_m2()) {
       const IndexVec first = hn::Set(di, next);
@@ -184,17 +186,16 @@ class Search {
     }
     // By the reach as it was before, so that they need not wait for one another.
     const float reach_before = nearest_.reach();
-    BoxOrder::Key visited = BoxOrder::kBeforeAll;
-    for (int i = 0; i < kVisitedFirst; ++i) {
-      const BoxOrder::Key key = BoxOrder::next(keys.data(), keys.size(), visited);
-      if (!(BoxOrder::bound(key) <= reach_before)) break;
-      visit(group * kGroupBoxes + BoxOrder::place(key));
-      visited = key;
+    BoxOrder::Key next = BoxOrder::next(keys.data(), keys.size(), BoxOrder::kBeforeAll);
+    for (int i = 0; i < kVisitedFirst && BoxOrder::bound(next) <= reach_before; ++i) {
+      const std::size_t place = BoxOrder::place(next);
+      next = BoxOrder::next(keys.data(), keys.size(), next);
+      visit(group * kGroupBoxes + place);
     }
     const FloatVec reach = hn::Set(d, nearest_.reach());
     for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
       const FloatVec distance = hn::Load(d, &least_sq_m2[i]);
-      const auto left = hn::RebindMask(d, hn::Gt(hn::Load(di, &keys[i]), hn::Set(di, visited)));
+      const auto left = hn::RebindMask(d, hn::Not(hn::Lt(hn::Load(di, &keys[i]), hn::Set(di, next))));
       candidates_.add(group * kGroupBoxes + i, distance, hn::And(hn::Le(distance, reach), left));
     }
   }
