@@ -28,7 +28,6 @@ struct TileRow {
   std::span<const std::uint16_t> no_return;  ///< values
   std::uint16_t* least;                      ///< one a tile, as the others
   DepthTiles::Cover* cover;
-  std::uint16_t* column_cover;  ///< kEdge_px a tile
   DepthTiles::Gaps* gaps;
 };
 
@@ -73,6 +72,48 @@ alignas(64) constexpr auto kColumnBits = [] {
   return bits;
 }();
 
+/// Covers of `tiles` tiles. @param greatest  of each column, 0 without any
+HWY_INLINE void coverTiles(RawVec greatest, RawVec gap_lines, std::size_t tiles, DepthTiles::Cover* out) {
+  using Cover = DepthTiles::Cover;
+  const RawTag d;
+  const hn::Repartition<std::int32_t, RawTag> dw;  // of which a part holds half a line
+  using WideVec = hn::Vec<decltype(dw)>;
+  const RawVec zero = hn::Zero(d);
+  const auto widened = [&](RawVec v) { return hn::BitCast(dw, hn::InterleaveLower(d, v, zero)); };
+  const auto widenedRightHalf = [&](RawVec v) { return hn::BitCast(dw, hn::InterleaveUpper(d, v, zero)); };
+  const auto higher = [](RawVec a, RawVec b) { return hn::Max(a, b); };
+
+  constexpr auto kRoundedUp = static_cast<std::uint16_t>((1 << Cover::kBitsRounded) - 1);
+  const RawVec top = hn::Or(overParts(greatest, higher), hn::Set(d, kRoundedUp));
+  const RawVec down = hn::IfThenZeroElse(hn::Eq(greatest, zero), hn::Sub(top, greatest));
+  // The exponent of a float tells which bit is the first.
+  constexpr int kMantissaBits = 23;
+  constexpr int kExponentBias = 127;
+  const auto farthest_down = hn::ConvertTo(hn::RebindToFloat<decltype(dw)>(), widened(overParts(down, higher)));
+  const WideVec exponent = hn::ShiftRight<kMantissaBits>(hn::BitCast(dw, farthest_down));
+  constexpr int kExponentOfMostSteps = kExponentBias + Cover::kBitsOfColumn - 1;
+  const WideVec shift = hn::Max(hn::Sub(exponent, hn::Set(dw, kExponentOfMostSteps)), hn::Zero(dw));
+  const WideVec bits = hn::Or(hn::ShiftLeft<Cover::kStepBits>(widened(gap_lines)), shift);
+  const WideVec depth = hn::ShiftRight<Cover::kBitsRounded>(widened(top));
+
+  alignas(16) constexpr std::array<std::int32_t, kEdge> kPlaces = {0, 4, 8, 12, 16, 20, 24, 28};
+  static_assert(kPlaces.back() == (kEdge - 1) * Cover::kBitsOfColumn);
+  const WideVec left = hn::Shl(hn::Shr(widened(down), shift), hn::LoadDup128(dw, kPlaces.data()));
+  const WideVec right = hn::Shl(hn::Shr(widenedRightHalf(down), shift), hn::LoadDup128(dw, &kPlaces[kEdge / 2]));
+  WideVec steps = hn::Or(left, right);
+  steps = hn::Or(steps, hn::Shuffle1032(steps));
+  steps = hn::Or(steps, hn::Shuffle2301(steps));
+
+  alignas(64) std::array<std::int32_t, kColumns / 2> bits_of_part;
+  alignas(64) std::array<std::int32_t, kColumns / 2> steps_of_part;
+  hn::Store(hn::Or(hn::ShiftLeft<Cover::kDepthBits>(bits), depth), dw, bits_of_part.data());
+  hn::Store(steps, dw, steps_of_part.data());
+  for (std::size_t tile = 0; tile < tiles; ++tile) {
+    const std::size_t part = tile * kEdge / 2;
+    out[tile] = {static_cast<std::uint32_t>(bits_of_part[part]), static_cast<std::uint32_t>(steps_of_part[part])};
+  }
+}
+
 /// Bounds `tiles` tiles, of which eight rows start at `pixels`, `stride` apart; those from `first_tile` on.
 HWY_INLINE void boundTiles(const TileRow& row, const std::uint16_t* pixels, std::size_t stride, std::size_t first_tile,
                            std::size_t tiles) {
@@ -91,22 +132,11 @@ HWY_INLINE void boundTiles(const TileRow& row, const std::uint16_t* pixels, std:
     gaps = hn::Or(gaps, hn::And(gap, hn::Set(d, static_cast<std::uint16_t>(1U << v))));
   }
   const auto lower = [](RawVec a, RawVec b) { return hn::Min(a, b); };
-  const auto higher = [](RawVec a, RawVec b) { return hn::Max(a, b); };
   const auto either = [](RawVec a, RawVec b) { return hn::Or(a, b); };
   const RawVec gap_columns = hn::IfThenZeroElse(hn::Eq(gaps, hn::Zero(d)), hn::Load(d, kColumnBits.data()));
   const RawVec gap_lines = hn::Or(gap_columns, hn::ShiftLeft<DepthTiles::kEdge_px>(gaps));
-  DepthTiles::Cover* cover = row.cover + first_tile;
+  coverTiles(greatest, overParts(gap_lines, either), tiles, row.cover + first_tile);
   eachPart(overParts(least, lower), tiles, [&](std::size_t i, std::uint16_t v) { row.least[first_tile + i] = v; });
-  eachPart(overParts(greatest, higher), tiles, [&](std::size_t i, std::uint16_t v) { cover[i].bits = v; });
-  eachPart(overParts(gap_lines, either), tiles,
-           [&](std::size_t i, std::uint16_t v) { cover[i].bits |= v * DepthTiles::Cover::kFirstColumn; });
-  if (tiles == kTiles) {
-    hn::StoreU(greatest, d, row.column_cover + first_tile * kEdge);
-  } else {
-    alignas(64) std::array<std::uint16_t, kColumns> columns;
-    hn::Store(greatest, d, columns.data());
-    std::copy_n(columns.begin(), tiles * kEdge, row.column_cover + first_tile * kEdge);
-  }
 
   const hn::Rebind<std::uint8_t, RawTag> d8;
   alignas(64) std::array<DepthTiles::Gaps, kTiles> columns;
@@ -152,7 +182,6 @@ DepthTiles::DepthTiles(const CameraModel& camera)
       rows_(tilesAlong(camera.height())),
       least_(tileAt(0, rows_), kNoDepth),
       cover_(tileAt(0, rows_)),
-      column_cover_(tileAt(0, rows_) * kEdge_px, 0),
       gaps_(tileAt(0, rows_)) {
   Gaps everywhere;
   everywhere.fill(0xFF);
@@ -171,7 +200,6 @@ void DepthTiles::assign(const DepthImage& image, const CameraModel& camera) {
       .no_return = camera.parameters().no_return_values,
       .least = &least_[first],
       .cover = &cover_[first],
-      .column_cover = &column_cover_[first * kEdge_px],
       .gaps = &gaps_[first]});
   }
 }

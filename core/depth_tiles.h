@@ -10,9 +10,9 @@
 
 namespace nanomap {
 
-/// The least and the greatest raw depth of each square tile of a depth image, the greatest of each of its columns, and
-/// which of its pixels carry none: enough to tell, for most pixels, that nothing there is nearer or farther than a
-/// limit. Threads: any number of readers; assigning needs the tiles alone.
+/// The least and the greatest raw depth of each square tile of a depth image, roughly the greatest of each of its
+/// columns, and which of its pixels carry none: enough to tell, for most pixels, that nothing there is nearer or
+/// farther than a limit. Threads: any number of readers; assigning needs the tiles alone.
 class DepthTiles {
  public:
   static constexpr int kEdge_px = 8;  ///< tiles at the right and bottom border may be cut
@@ -33,31 +33,43 @@ class DepthTiles {
   /// Row-major, `columns() * rows()` values. A tile without any depth holds kNoDepth.
   [[nodiscard]] const std::vector<std::uint16_t>& least() const { return least_; }
 
-  /// What is in front of whatever is not nearer than `greatest()`: all pixels of a tile but those that carry no depth.
+  /// What is in front of whatever is not nearer: all pixels of a tile but those that carry no depth. Depths are rounded
+  /// up, to make it so small that those of all views of a history stay in a near cache.
   struct Cover {
     /// The bits of a pixel's column and row in its tile.
     [[nodiscard]] static constexpr std::uint32_t linesOf(int column, int row) {
       return std::uint32_t{kFirstColumn} << column | std::uint32_t{kFirstRow} << row;
     }
-    static constexpr std::uint32_t kFirstColumn = 1U << 16;
+    static constexpr int kDepthBits = 12;
+    static constexpr int kBitsRounded = 16 - kDepthBits;  ///< of a raw depth: up to the next that has them all set
+    static constexpr int kStepBits = 4;
+    static constexpr std::uint32_t kFirstColumn = 1U << (kDepthBits + kStepBits);
     static constexpr std::uint32_t kFirstRow = kFirstColumn << kEdge_px;
-    static constexpr std::uint32_t kGreatest = kFirstColumn - 1;
+    static constexpr int kBitsOfColumn = 4;
+    static constexpr std::uint32_t kMostSteps = (1U << kBitsOfColumn) - 1;
 
-    /// Raw depth; 0 without any.
-    [[nodiscard]] std::uint16_t greatest() const { return static_cast<std::uint16_t>(bits & kGreatest); }
+    /// No less than any raw depth.
+    [[nodiscard]] std::uint16_t greatest() const {
+      return static_cast<std::uint16_t>(bits << kBitsRounded | ((1U << kBitsRounded) - 1));
+    }
+    /// No less than any raw depth in a column: what is upright (trunks, poles, frames of doors) parts near from far
+    /// along columns. Of a column without any depth it says nothing.
+    [[nodiscard]] std::uint16_t greatestOfColumn(int column) const {
+      const std::uint32_t count = steps >> (column * kBitsOfColumn) & kMostSteps;
+      return static_cast<std::uint16_t>(greatest() - (count << stepShift()));
+    }
+    /// Of two, what power a step is: the least that reaches from greatest() down to each column in kMostSteps.
+    [[nodiscard]] std::uint32_t stepShift() const { return bits >> kDepthBits & ((1U << kStepBits) - 1); }
     /// linesOf() all pixels that carry no depth: another one may have its column of one of them and its row of another,
     /// but most carry a depth for certain where gaps are few. Of lines outside the image they say nothing.
-    [[nodiscard]] std::uint32_t gapLines() const { return bits & ~kGreatest; }
+    [[nodiscard]] std::uint32_t gapLines() const { return bits & ~(kFirstColumn - 1); }
 
-    std::uint32_t bits = ~kGreatest;  ///< both, without any overlap
+    std::uint32_t bits = ~(kFirstColumn - 1);  ///< the greatest's first bits, those of stepShift(), and gapLines()
+    std::uint32_t steps = 0;                   ///< of each column, kBitsOfColumn each, left to right
   };
 
   /// In the same order.
   [[nodiscard]] const std::vector<Cover>& cover() const { return cover_; }
-
-  /// The greatest raw depth in each column of each tile, 0 without any, kEdge_px values a tile, left to right: what is
-  /// upright (trunks, poles, frames of doors) parts near from far along columns.
-  [[nodiscard]] const std::vector<std::uint16_t>& columnCover() const { return column_cover_; }
 
   /// Is there a pixel in the tile that carries no depth?
   [[nodiscard]] bool hasGap(std::size_t tile) const { return cover_[tile].gapLines() != 0; }
@@ -76,7 +88,6 @@ class DepthTiles {
   int rows_;
   std::vector<std::uint16_t> least_;
   std::vector<Cover> cover_;
-  std::vector<std::uint16_t> column_cover_;
   std::vector<Gaps> gaps_;
 };
 

@@ -22,7 +22,6 @@ constexpr double kRoundingUp = 1.0 + 0x1p-20;
 
 /// Read in the lanes without a view.
 constexpr DepthTiles::Cover kNoCover;
-constexpr std::uint16_t kNoColumnCover = 0;
 
 bool isWithin(const auto& matrix, double limit) { return (matrix.array().abs() <= limit).all(); }
 
@@ -67,9 +66,8 @@ void setLane(ViewLanes& lanes, std::size_t lane, const SnapshotView& view) {
   lanes.last_column[lane] = static_cast<float>(camera.width() - 1);
   lanes.last_row[lane] = static_cast<float>(camera.height() - 1);
   lanes.counts_per_m[lane] = rounded(1.0 / (static_cast<double>(camera.depth(1)) * kRoundingUp));
-  lanes.tiled_width_px[lane] = view.view->tiles().columns() * DepthTiles::kEdge_px;
+  lanes.tile_columns[lane] = view.view->tiles().columns();
   lanes.cover[lane] = view.view->tiles().cover().data();
-  lanes.column_cover[lane] = view.view->tiles().columnCover().data();
   lanes.view[lane] = view.view.get();
   if (camera.parameters().distortion.isZero()) lanes.tiled |= 1U << lane;
   if (liesBelowGlance(view.up_C)) lanes.upright |= 1U << lane;
@@ -79,7 +77,6 @@ ViewLanes withoutViews() {
   ViewLanes lanes{};
   lanes.near_m.fill(std::numeric_limits<float>::infinity());
   lanes.cover.fill(&kNoCover);
-  lanes.column_cover.fill(&kNoColumnCover);
   return lanes;
 }
 

@@ -24,9 +24,8 @@ struct alignas(64) ViewLanes {
   Floats cells_per_tan_x, cells_per_tan_y;  ///< cells as of CameraModel::pixelOfCell()
   Floats last_column, last_row;
   Floats counts_per_m;                                     ///< raw depth
-  std::array<std::int32_t, kViewLanes> tiled_width_px;     ///< of the image's tiles, those at the border uncut
-  std::array<const DepthTiles::Cover*, kViewLanes> cover;  ///< of DepthTiles, as the next
-  std::array<const std::uint16_t*, kViewLanes> column_cover;
+  std::array<std::int32_t, kViewLanes> tile_columns;       ///< of the image
+  std::array<const DepthTiles::Cover*, kViewLanes> cover;  ///< of DepthTiles
   std::array<const View*, kViewLanes> view;
   std::uint32_t tiled = 0;    ///< bits of the lanes whose cells are pixels: no distortion
   std::uint32_t upright = 0;  ///< bits of the lanes where liesBelowGlance() holds
@@ -46,9 +45,8 @@ struct ProbedLanes {
   std::uint32_t in_cell = 0;  ///< bits of the lanes whose cell is certain
   alignas(64) std::array<std::int32_t, kViewLanes> column;
   alignas(64) std::array<std::int32_t, kViewLanes> row;
-  alignas(64) std::array<std::int32_t, kViewLanes> tile_column;  ///< columns of tiles before that of the cell
-  alignas(64) std::array<std::int32_t, kViewLanes> tile;         ///< of the cell
-  alignas(64) std::array<std::int32_t, kViewLanes> raw;  ///< the mean is certainly not nearer than this raw depth
+  alignas(64) std::array<std::int32_t, kViewLanes> tile;  ///< of the cell
+  alignas(64) std::array<std::int32_t, kViewLanes> raw;   ///< the mean is certainly not nearer than this raw depth
 };
 
 }  // namespace nanomap

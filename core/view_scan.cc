@@ -31,14 +31,20 @@ constexpr int kTileShift = 3;
 static_assert(1 << kTileShift == DepthTiles::kEdge_px);
 constexpr auto kFirstColumn = static_cast<std::int32_t>(DepthTiles::Cover::kFirstColumn);
 constexpr auto kFirstRow = static_cast<std::int32_t>(DepthTiles::Cover::kFirstRow);
-constexpr auto kGreatest = static_cast<std::int32_t>(DepthTiles::Cover::kGreatest);
+
+/// DepthTiles::Cover of many views.
+struct CoverLanes {
+  alignas(64) std::array<std::int32_t, kViewLanes> bits;
+  alignas(64) std::array<std::int32_t, kViewLanes> steps;
+};
 
 /// Covers of the lanes of a vector, from `first` on. A call, so that tiles are read from memory: inlined, the compiler
 /// takes them out of a vector one by one.
-HWY_NOINLINE void loadCovers(const ViewLanes& views, std::size_t first, const ProbedLanes& at,
-                             std::array<std::int32_t, kViewLanes>& out) {
+HWY_NOINLINE void loadCovers(const ViewLanes& views, std::size_t first, const ProbedLanes& at, CoverLanes& out) {
   for (std::size_t i = first; i < first + hn::MaxLanes(Float()); ++i) {
-    out[i] = static_cast<std::int32_t>(views.cover[i][at.tile[i]].bits);
+    const DepthTiles::Cover& cover = views.cover[i][at.tile[i]];
+    out.bits[i] = static_cast<std::int32_t>(cover.bits);
+    out.steps[i] = static_cast<std::int32_t>(cover.steps);
   }
 }
 
@@ -73,8 +79,8 @@ class VectorProbe {
 
     // Occlusion first: it rules out most and costs least.
     const std::uint32_t inside = bits(hn::Ge(hn::Min(in_range, in_sides), zero));
-    findCells(z, from_left, from_top, inside, out);
-    const std::uint32_t visible = inside & ~behindTiles(inside, out);
+    const Cells cells = findCells(z, from_left, from_top, inside, out);
+    const std::uint32_t visible = inside & ~behindTiles(cells, inside, out);
     if (visible == 0) return;
 
     const FloatVec half_x = leastHalfSize(0);
@@ -89,10 +95,18 @@ class VectorProbe {
   }
 
  private:
+  /// The lines of a tile that the mean can fall in, as bits of a cover, and the lanes where there is but one tile.
+  struct Cells {
+    IntVec columns;
+    IntVec rows;
+    hn::Mask<Int> one_column;
+    std::uint32_t in_tile;
+  };
+
   /// Where the mean falls: the least cell that it can fall in, the raw depth that it is not nearer than, and the lanes
   /// where no other cell is possible.
-  HWY_INLINE void findCells(FloatVec z, FloatVec from_left, FloatVec from_top, std::uint32_t inside,
-                            ProbedLanes& out) const {
+  HWY_INLINE Cells findCells(FloatVec z, FloatVec from_left, FloatVec from_top, std::uint32_t inside,
+                             ProbedLanes& out) const {
     const Float d;
     const Int di;
     const FloatVec slack = hn::Set(d, probe_.slack_m);
@@ -108,45 +122,69 @@ class VectorProbe {
     const IntVec max_row = toCell(greatestCell(from_top, rows_per_m, last_row), last_row);
     hn::Store(column, di, out.column.data() + first_);
     hn::Store(row, di, out.row.data() + first_);
-    const auto one_cell = hn::And(hn::Eq(column, max_column), hn::Eq(row, max_row));
-    out.in_cell |= (inside & bits(hn::And(deep, hn::RebindMask(d, one_cell)))) << first_;
+    const IntVec other = hn::Or(hn::Xor(column, max_column), hn::Xor(row, max_row));
+    out.in_cell |= (inside & bits(hn::And(deep, hn::RebindMask(d, hn::Eq(other, hn::Zero(di)))))) << first_;
 
     const FloatVec raw = hn::Mul(hn::Sub(z, slack), load(views_.counts_per_m));
     const FloatVec certain_raw = hn::Min(hn::Max(raw, hn::Zero(d)), hn::Set(d, kGreatestCertainRaw));
     hn::Store(hn::ConvertTo(di, certain_raw), di, out.raw.data() + first_);
 
+    const auto one_tile = hn::Lt(other, hn::Set(di, DepthTiles::kEdge_px));
     const IntVec tile_row = hn::ShiftRight<kTileShift>(row);
-    const IntVec tiled_width_px = hn::Load(di, views_.tiled_width_px.data() + first_);
-    const IntVec tile_column = hn::Add(hn::Mul(tile_row, tiled_width_px), column);
-    hn::Store(tile_column, di, out.tile_column.data() + first_);
-    hn::Store(hn::ShiftRight<kTileShift>(tile_column), di, out.tile.data() + first_);
+    const IntVec tile_columns = hn::Load(di, views_.tile_columns.data() + first_);
+    const IntVec tile = hn::Add(hn::Mul(tile_row, tile_columns), hn::ShiftRight<kTileShift>(column));
+    hn::Store(tile, di, out.tile.data() + first_);
+    return {lines(kFirstColumn, column, max_column), lines(kFirstRow, row, max_row), hn::Eq(column, max_column),
+            bits(hn::And(deep, hn::RebindMask(d, one_tile)))};
   }
 
-  /// Bits of the lanes where the cell's pixel carries a depth for certain, and the mean is not nearer than any depth of
-  /// its tile, or of its column there.
-  HWY_INLINE std::uint32_t behindTiles(std::uint32_t inside, ProbedLanes& out) const {
-    // Tiles first: all those of a history stay in a cache that their columns have no room in.
+  /// The bits of a cover's columns or rows from one to another.
+  /// @pre no more of them than a tile has, and the first not behind the last in a tile; else any bits
+  static HWY_INLINE IntVec lines(std::int32_t first_line, IntVec from, IntVec to) {
+    const Int di;
+    const IntVec in_tile = hn::Set(di, DepthTiles::kEdge_px - 1);
+    const IntVec behind = hn::Shl(hn::Set(di, 2 * first_line), hn::And(to, in_tile));
+    return hn::Sub(behind, hn::Shl(hn::Set(di, first_line), hn::And(from, in_tile)));
+  }
+
+  /// Bits of the lanes where the pixel of every cell that the mean can fall in carries a depth for certain, and the
+  /// mean is not nearer than any depth of its tile, or of its column there.
+  HWY_INLINE std::uint32_t behindTiles(const Cells& cells, std::uint32_t inside, const ProbedLanes& out) const {
     const Float d;
     const Int di;
-    alignas(64) std::array<std::int32_t, kViewLanes> covers;
+    CoverLanes covers;
     loadCovers(views_, first_, out, covers);
-    const IntVec cover = hn::Load(di, covers.data() + first_);
+    const IntVec bits_of_cover = hn::Load(di, covers.bits.data() + first_);
+    const IntVec none = hn::Zero(di);
+    const auto may_be_gap =
+        hn::And(hn::Ne(hn::And(bits_of_cover, cells.columns), none), hn::Ne(hn::And(bits_of_cover, cells.rows), none));
     const IntVec raw = hn::Load(di, out.raw.data() + first_);
-    const IntVec in_tile = hn::Set(di, DepthTiles::kEdge_px - 1);
-    const IntVec column = hn::And(hn::Load(di, out.column.data() + first_), in_tile);
-    const IntVec row = hn::And(hn::Load(di, out.row.data() + first_), in_tile);
-    const IntVec lines = hn::Or(hn::Shl(hn::Set(di, kFirstColumn), column), hn::Shl(hn::Set(di, kFirstRow), row));
-    const auto may_be_gap = hn::Eq(hn::And(cover, lines), lines);
-    const auto nearer = hn::Lt(raw, hn::And(cover, hn::Set(di, kGreatest)));
-    const std::uint32_t certain =
-        (out.in_cell & views_.tiled) >> first_ & inside & ~bits(hn::RebindMask(d, may_be_gap));
-    std::uint32_t behind = certain & ~bits(hn::RebindMask(d, nearer));
-    for (std::uint32_t rest = certain & ~behind; rest != 0; rest &= rest - 1) {
-      const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
-      const std::size_t lane = first_ + i;
-      behind |= static_cast<std::uint32_t>(out.raw[lane] >= views_.column_cover[lane][out.tile_column[lane]]) << i;
-    }
-    return behind;
+    const IntVec column = hn::Load(di, out.column.data() + first_);
+    const IntVec steps = hn::Load(di, covers.steps.data() + first_);
+    const IntVec down = hn::IfThenElseZero(cells.one_column, below(bits_of_cover, steps, column));
+    const auto nearer = hn::Lt(raw, hn::Sub(greatest(bits_of_cover), down));
+    return inside & views_.tiled >> first_ & cells.in_tile & ~bits(hn::RebindMask(d, hn::Or(may_be_gap, nearer)));
+  }
+
+  /// DepthTiles::Cover::greatest().
+  static HWY_INLINE IntVec greatest(IntVec bits_of_cover) {
+    constexpr int kRounded = DepthTiles::Cover::kBitsRounded;
+    constexpr std::int32_t kRoundedUp = (1 << kRounded) - 1;
+    constexpr std::int32_t kOfBits = ((1 << DepthTiles::Cover::kDepthBits) - 1) << kRounded;
+    const Int di;
+    return hn::Or(hn::And(hn::ShiftLeft<kRounded>(bits_of_cover), hn::Set(di, kOfBits)), hn::Set(di, kRoundedUp));
+  }
+
+  /// By how much DepthTiles::Cover::greatestOfColumn() is below that.
+  static HWY_INLINE IntVec below(IntVec bits_of_cover, IntVec steps, IntVec column) {
+    using Cover = DepthTiles::Cover;
+    const Int di;
+    const IntVec in_tile = hn::And(column, hn::Set(di, DepthTiles::kEdge_px - 1));
+    const IntVec place = hn::Mul(in_tile, hn::Set(di, Cover::kBitsOfColumn));
+    const IntVec count = hn::And(hn::Shr(steps, place), hn::Set(di, static_cast<std::int32_t>(Cover::kMostSteps)));
+    const IntVec shift =
+        hn::And(hn::ShiftRight<Cover::kDepthBits>(bits_of_cover), hn::Set(di, (1 << Cover::kStepBits) - 1));
+    return hn::Shl(count, shift);
   }
 
   HWY_INLINE FloatVec load(const ViewLanes::Floats& lanes) const { return hn::Load(Float(), lanes.data() + first_); }

@@ -7,10 +7,12 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/chain.h"
 #include "core/query.h"
+#include "tests/support/drawing.h"
 #include "tests/support/drawn_world.h"
 
 namespace nanomap {
@@ -169,6 +171,47 @@ TEST(ViewFilter, NeverChangesAnAnswer) {
   for (std::size_t status = 0; status < static_cast<std::size_t>(Status::kEmpty); ++status) {
     EXPECT_GT(answers[status], 100) << toString(static_cast<Status>(status));
   }
+}
+
+/// Columns, rows or squares of near, far and nothing, and means that fall between two of them: what the filter takes
+/// the pixel for need not be what it is.
+TEST(ViewFilter, NeverTakesAPixelForItsNeighbour) {
+  constexpr std::uint16_t kNear = 2000;
+  constexpr std::uint16_t kFar = 8000;
+  std::mt19937 random(kSeed);
+  const auto pick = [&random](int below) { return std::uniform_int_distribution(0, below - 1)(random); };
+  const auto camera = test::model(test::smallCamera());
+  const Frustum& f = camera->frustum();
+  int answered = 0;
+  for (const auto& [width_px, height_px] : {std::pair{1, 48}, {64, 1}, {1, 1}, {8, 8}}) {
+    DepthImage image = test::flatImage(*camera, kFar);
+    for (int v = 0; v < camera->height(); v += height_px) {
+      for (int u = 0; u < camera->width(); u += width_px) {
+        const std::uint16_t raw =
+            std::array{kNear, kNear, kFar, kFar, std::uint16_t{0}}[static_cast<std::size_t>(pick(5))];
+        test::paint(image, u, std::min(u + width_px, camera->width()) - 1, v,
+                    std::min(v + height_px, camera->height()) - 1, raw);
+      }
+    }
+    ChainSnapshot snapshot;
+    snapshot.views.resize(2);
+    for (SnapshotView& view : snapshot.views) view.view = test::viewOf(image, camera);
+    snapshot.views[0].R_C_B = Eigen::AngleAxisd(3.0, Vec3::UnitY()).toRotationMatrix();  // away from all points
+    snapshot.filter.assign(snapshot.views);
+    for (int i = 0; i < 2000; ++i) {
+      constexpr double kHair = 1e-9;
+      const double column = 1 + pick(camera->width() - 1) + (pick(2) == 0 ? 0.5 : kHair * (pick(3) - 1));
+      const double row = 1 + pick(camera->height() - 1) + (pick(2) == 0 ? 0.5 : kHair * (pick(3) - 1));
+      const double tan_x = std::lerp(f.tan_left, f.tan_right, column / camera->width());
+      const double tan_y = std::lerp(f.tan_top, f.tan_bottom, row / camera->height());
+      const double z_m = 3.0 + pick(4);
+      const UncertainPoint x_B{{tan_x * z_m, tan_y * z_m, z_m}, Mat3::Zero()};
+      const Location expected = walked(snapshot, x_B, {});
+      if (expected.view_index == 1U) ++answered;
+      onEveryTarget([&] { ASSERT_EQ(locate(snapshot, x_B, {}), expected) << column << ' ' << row; });
+    }
+  }
+  EXPECT_GT(answered, 2000);
 }
 
 /// What makes the filter worth having: it leaves the views that answer, holes that only a look around tells from sky,
