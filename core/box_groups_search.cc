@@ -57,7 +57,7 @@ class Candidates {
     // Then reach has come down to where finding the next takes longer than visiting one too many.
     constexpr int kVisitedInOrder = 6;
     const IndexTag di;
-    hn::StoreU(hn::Set(di, Order::kAfterAll), di, &keys_[size_]);
+    for (std::size_t i = 0; i < Order::kStep; i += kLanes) hn::StoreU(hn::Set(di, Order::kAfterAll), di, &keys_[size_ + i]);
     Order::Key next = Order::next(keys_.data(), size_, Order::kBeforeAll);
     for (int i = 0; i < kVisitedInOrder && Order::bound(next) <= reach_sq_m2(); ++i) {
       // What comes after it is found first, else that would wait for the visit.
@@ -68,11 +68,15 @@ class Candidates {
     if (Order::bound(next) <= reach_sq_m2()) {
       const IndexVec first = hn::Set(di, next);
       const IndexVec last = hn::Set(di, Order::lastWithin(reach_sq_m2()));
-      for (std::size_t i = 0; i < size_; i += kLanes) {
-        const IndexVec keys = hn::Load(di, &keys_[i]);
-        const auto is_left = hn::Not(hn::Or(hn::Lt(keys, first), hn::Gt(keys, last)));
-        for (std::uint32_t left = bitsOf(hn::RebindMask(FloatTag(), is_left)); left != 0; left &= left - 1) {
-          visit(static_cast<std::size_t>(boxes_[i + static_cast<std::size_t>(std::countr_zero(left))]));
+      for (std::size_t step = 0; step < size_; step += Order::kStep) {
+        std::uint32_t left = 0;
+        for (std::size_t i = 0; i < Order::kStep; i += kLanes) {
+          const IndexVec keys = hn::Load(di, &keys_[step + i]);
+          const auto is_left = hn::Not(hn::Or(hn::Lt(keys, first), hn::Gt(keys, last)));
+          left |= bitsOf(hn::RebindMask(FloatTag(), is_left)) << i;
+        }
+        for (; left != 0; left &= left - 1) {
+          visit(static_cast<std::size_t>(boxes_[step + static_cast<std::size_t>(std::countr_zero(left))]));
         }
       }
     }
@@ -94,7 +98,7 @@ class Candidates {
   }
 
   // A vector may be written past the last.
-  using Column = std::array<std::int32_t, kCapacity + kGroupBoxes>;
+  using Column = std::array<std::int32_t, kCapacity + Order::kStep>;
   alignas(64) Column keys_;
   alignas(64) Column boxes_;
   std::size_t size_ = 0;

@@ -6,6 +6,7 @@
 #define NANOMAP_CORE_NEAR_ORDER_INL_H_
 #endif
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -34,16 +35,22 @@ class NearOrder {
     return hn::OrAnd(places, hn::BitCast(di, distance_sq_m2), hn::Set(di, ~(kPlaces - 1)));
   }
 
+  /// Keys are looked at so many at a time, which is how many there seldom are more of: a branch for each vector of them
+  /// would often be foreseen wrongly.
+  static constexpr std::size_t kStep = std::min<std::size_t>(32, kPlaces);
+
   /// The least of `count` keys above `last`; kAfterAll if there is none.
-  /// @param keys  aligned, of whole vectors, of which what is past `count` is kAfterAll
+  /// @param keys  aligned, of whole steps, of which what is past `count` is kAfterAll
   [[nodiscard]] static HWY_INLINE Key next(const Key* keys, std::size_t count, Key last) {
     const IndexTag di;
     const IndexVec none = hn::Set(di, kAfterAll);
     const IndexVec taken = hn::Set(di, last);
     IndexVec least = none;
-    for (std::size_t i = 0; i < count; i += kLanes) {
-      const IndexVec key = hn::Load(di, keys + i);
-      least = hn::Min(least, hn::IfThenElse(hn::Gt(key, taken), key, none));
+    for (std::size_t step = 0; step < count; step += kStep) {
+      for (std::size_t i = step; i < step + kStep; i += kLanes) {
+        const IndexVec key = hn::Load(di, keys + i);
+        least = hn::Min(least, hn::IfThenElse(hn::Gt(key, taken), key, none));
+      }
     }
     return leastLane(least);
   }
