@@ -27,17 +27,23 @@ double timeRun_s(const Contestant& contestant) {
 }  // namespace
 
 std::vector<Standing> hold(const Contest& contest, int rounds) {
-  std::vector<std::vector<double>> times_s(contest.contestants.size());
+  struct Times {
+    std::vector<double> settled_s;
+    std::vector<double> cold_s;
+  };
+  std::vector<Times> times(contest.contestants.size());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < contest.contestants.size(); ++i) {
       const Contestant& contestant = contest.contestants[i];
+      times[i].cold_s.push_back(timeRun_s(contestant) / contestant.items);
       (void)timeRun_s(contestant);
-      times_s[i].push_back(timeRun_s(contestant) / contestant.items);
+      times[i].settled_s.push_back(timeRun_s(contestant) / contestant.items);
     }
   }
   std::vector<Standing> standings;
-  for (std::size_t i = 0; i < times_s.size(); ++i) {
-    standings.push_back({contest.contestants[i].name, percentile<double>(times_s[i], 0.5)});
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    standings.push_back({contest.contestants[i].name, percentile<double>(times[i].settled_s, 0.5),
+                         percentile<double>(times[i].cold_s, 0.5)});
   }
   return standings;
 }

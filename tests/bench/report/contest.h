@@ -32,14 +32,16 @@ struct Contest {
 struct Standing {
   std::string contestant;
   double median_s = 0.0;  ///< an item
+  double cold_s = 0.0;    ///< an item: the same of the first runs of the turns
 };
 
 /// Processor time that the calling thread has used [s]: other programs on the machine do not count.
 [[nodiscard]] double threadTime_s();
 
-/// All contestants in turn, `rounds` times, so that what slows the machine down slows all of them down. Each turn begins
-/// with a run that does not count: what is timed finds the caches as its own work leaves them, as in flight, and not as
-/// an opponent of several hundred megabytes does.
+/// All contestants in turn, `rounds` times, so that what slows the machine down slows all of them down. What counts is
+/// the third run of a turn: it finds the caches as its own work leaves them, as in flight, and not as an opponent of
+/// several hundred megabytes does. One run before it is too few, since a last-level cache may keep only what is used
+/// again. The first run is reported too.
 [[nodiscard]] std::vector<Standing> hold(const Contest& contest, int rounds);
 
 /// The fastest of those whose name begins with `opponent`, divided by ours. @pre there is one

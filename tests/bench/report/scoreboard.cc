@@ -38,7 +38,7 @@ void Scoreboard::rate(std::string_view row, double value, const std::string& whe
 
 void Scoreboard::record(const Contest& contest, const std::vector<Standing>& standings, const std::string& where) {
   for (const Standing& standing : standings) {
-    recordTime(contest.name, standing.contestant, where, standing.median_s);
+    recordTime(contest.name, standing.contestant, where, standing.median_s, standing.cold_s);
   }
   for (const Rating& rating : contest.ratings) {
     rate(rating.row, ratio(standings, rating.opponent), where + " " + contest.name);
@@ -46,8 +46,8 @@ void Scoreboard::record(const Contest& contest, const std::vector<Standing>& sta
 }
 
 void Scoreboard::recordTime(const std::string& work, const std::string& contestant, const std::string& where,
-                            double median_s) {
-  times_.push_back({work, contestant, where, median_s});
+                            double median_s, std::optional<double> cold_s) {
+  times_.push_back({work, contestant, where, median_s, cold_s});
 }
 
 std::optional<Scoreboard::Value> Scoreboard::worst(const Row& row) const {
@@ -79,7 +79,9 @@ void Scoreboard::print(bool every_row) const {
     if (const auto value = worst(row)) fmt::print("# worst of {}: {}\n", row.name, value->where);
   }
   for (const Time& time : times_) {
-    fmt::print("# {:<24} {:<24} {:<16} {:>9}\n", time.work, time.contestant, time.where, timeText(time.median_s));
+    const std::string cold = time.cold_s ? fmt::format("   cold {:>9}", timeText(*time.cold_s)) : "";
+    fmt::print("# {:<24} {:<24} {:<16} {:>9}{}\n", time.work, time.contestant, time.where, timeText(time.median_s),
+               cold);
   }
   for (const std::string& remark : remarks_) fmt::print("# {}\n", remark);
 }
@@ -100,8 +102,10 @@ void Scoreboard::writeJson(const std::filesystem::path& file) const {
     json["rows"].push_back(std::move(entry));
   }
   for (const Time& time : times_) {
-    json["times"].push_back(
-        {{"work", time.work}, {"contestant", time.contestant}, {"where", time.where}, {"median_s", time.median_s}});
+    nlohmann::ordered_json entry{
+        {"work", time.work}, {"contestant", time.contestant}, {"where", time.where}, {"median_s", time.median_s}};
+    if (time.cold_s) entry["cold_s"] = *time.cold_s;
+    json["times"].push_back(std::move(entry));
   }
   json["remarks"] = remarks_;
   std::ofstream out(file);

@@ -61,8 +61,9 @@ class Scoreboard {
   /// A contest's outcome: its times, and the rows that it decides.
   void record(const Contest& contest, const std::vector<Standing>& standings, const std::string& where);
 
-  /// A time that no row is made of [s].
-  void recordTime(const std::string& work, const std::string& contestant, const std::string& where, double median_s);
+  /// A time that no row is made of [s]. @param cold_s  if it was measured: of what comes after other work
+  void recordTime(const std::string& work, const std::string& contestant, const std::string& where, double median_s,
+                  std::optional<double> cold_s = std::nullopt);
 
   /// Something that a reader of the figures should know.
   void remark(const std::string& text) { remarks_.push_back(text); }
@@ -87,6 +88,7 @@ class Scoreboard {
     std::string contestant;
     std::string where;
     double median_s = 0.0;
+    std::optional<double> cold_s;
   };
 
   [[nodiscard]] std::optional<Value> worst(const Row& row) const;
