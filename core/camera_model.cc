@@ -156,24 +156,4 @@ void CameraModel::undistortOnce() {
   }
 }
 
-DepthReading CameraModel::classify(std::uint16_t raw) const {
-  for (const std::uint16_t value : parameters_.no_return_values) {
-    if (raw == value) return DepthReading::kNone;
-  }
-  const double depth_m = static_cast<double>(depth(raw));
-  if (depth_m < parameters_.min_range_m) return DepthReading::kTooNear;
-  if (depth_m > parameters_.max_range_m) return DepthReading::kTooFar;
-  return DepthReading::kInRange;
-}
-
-std::optional<CameraModel::Pixel> CameraModel::pixelAt(double tan_x, double tan_y) const {
-  const bool inside = tan_x >= frustum_.tan_left && tan_x <= frustum_.tan_right && tan_y >= frustum_.tan_top &&
-                      tan_y <= frustum_.tan_bottom;
-  if (!inside) return std::nullopt;
-  const auto cell = [](double fraction, int count) { return std::min(static_cast<int>(fraction * count), count - 1); };
-  const int u = cell((tan_x - frustum_.tan_left) / (frustum_.tan_right - frustum_.tan_left), width());
-  const int v = cell((tan_y - frustum_.tan_top) / (frustum_.tan_bottom - frustum_.tan_top), height());
-  return pixelOfCell({u, v});
-}
-
 }  // namespace nanomap

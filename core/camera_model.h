@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -81,7 +82,15 @@ class CameraModel {
     return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
   }
 
-  [[nodiscard]] DepthReading classify(std::uint16_t raw) const;
+  [[nodiscard]] DepthReading classify(std::uint16_t raw) const {
+    for (const std::uint16_t value : parameters_.no_return_values) {
+      if (raw == value) return DepthReading::kNone;
+    }
+    const double depth_m = static_cast<double>(depth(raw));
+    if (depth_m < parameters_.min_range_m) return DepthReading::kTooNear;
+    if (depth_m > parameters_.max_range_m) return DepthReading::kTooFar;
+    return DepthReading::kInRange;
+  }
 
   /// The raw values that classify() finds to be in range.
   [[nodiscard]] const RawRange& inRange() const { return in_range_; }
@@ -122,7 +131,14 @@ class CameraModel {
   }
 
   /// The pixel whose ray is nearest to the tangents (x/z, y/z); empty outside the frustum's sides.
-  [[nodiscard]] std::optional<Pixel> pixelAt(double tan_x, double tan_y) const;
+  [[nodiscard]] std::optional<Pixel> pixelAt(double tan_x, double tan_y) const {
+    const bool inside = tan_x >= frustum_.tan_left && tan_x <= frustum_.tan_right && tan_y >= frustum_.tan_top &&
+                        tan_y <= frustum_.tan_bottom;
+    if (!inside) return std::nullopt;
+    const int u = static_cast<int>((tan_x - frustum_.tan_left) * parameters_.fx_px);
+    const int v = static_cast<int>((tan_y - frustum_.tan_top) * parameters_.fy_px);
+    return pixelOfCell({std::min(u, width() - 1), std::min(v, height() - 1)});
+  }
 
  private:
   void undistortOnce();
