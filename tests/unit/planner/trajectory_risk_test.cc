@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/brake.h"
 #include "tests/unit/planner/flight.h"
 
 namespace nanomap {
