@@ -44,34 +44,6 @@ class RiskTally {
   TrajectoryRisk result_;
 };
 
-/// Where a trajectory is sampled: at the ends of a few stretches of equal time, and in even steps along each of them.
-class Stretches {
- public:
-  /// @param samples  steps of the whole trajectory, at least
-  Stretches(double duration_s, int samples)
-      : duration_s_(duration_s), count_(std::min(samples, kMost)), least_steps_((samples + count_ - 1) / count_) {}
-
-  [[nodiscard]] int count() const { return count_; }
-
-  /// When the first `stretches` have passed.
-  [[nodiscard]] double end_s(int stretches) const { return duration_s_ * stretches / count_; }
-
-  /// Of a stretch with such a beginning and end: as many as make none longer than `longest_m`.
-  [[nodiscard]] int steps(const Motion& begin, const Motion& end, double longest_m) const {
-    const double duration_s = duration_s_ / count_;
-    const double greatest_speed_m_s = std::max(begin.velocity_m_s.norm(), end.velocity_m_s.norm());
-    const double length_m = std::max((end.position_m - begin.position_m).norm(), greatest_speed_m_s * duration_s);
-    return std::max(static_cast<int>(std::ceil(length_m / longest_m)), least_steps_);
-  }
-
- private:
-  static constexpr int kMost = 5;
-
-  double duration_s_;
-  int count_;
-  int least_steps_;
-};
-
 }  // namespace
 
 SpaceAhead::SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters)
@@ -130,10 +102,11 @@ SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool
 }
 
 std::optional<TrajectoryRisk> SpaceAhead::glance(const Trajectory& trajectory, int samples) const {
+  constexpr int kGlances = 5;
+  const int stride = std::max(samples / kGlances, 1);
   // The end first: it is farthest into what may be in the way.
-  const Stretches stretches(trajectory.duration_s(), samples);
-  for (int i = stretches.count(); i > 0; --i) {
-    const double elapsed_s = stretches.end_s(i);
+  for (int i = samples; i > 0; i -= stride) {
+    const double elapsed_s = trajectory.duration_s() * i / samples;
     const SampleEvidence sample = assess(trajectory.sample(elapsed_s), elapsed_s, true);
     RiskTally tally(parameters_.max_risk);
     tally.add(sample);
@@ -145,27 +118,33 @@ std::optional<TrajectoryRisk> SpaceAhead::glance(const Trajectory& trajectory, i
 
 TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, bool stop_early,
                                   std::vector<SampleEvidence>* evidence, const SampleEvidence* start) const {
-  const Stretches stretches(trajectory.duration_s(), samples);
+  const double duration_s = trajectory.duration_s();
+  const double radius_m = parameters_.collision.vehicle_radius_m;
   RiskTally tally(parameters_.max_risk);
   const auto add = [&](const SampleEvidence& sample) {
     tally.add(sample);
     if (evidence != nullptr) evidence->push_back(sample);
     return sample;
   };
+  const auto assessAt = [&](const Motion& motion_W, double elapsed_s) {
+    return add(assess(motion_W, elapsed_s, stop_early));
+  };
   const auto decided = [&] { return stop_early && tally.isVetoed(); };
 
-  const SampleEvidence first = add(start != nullptr ? *start : assess(trajectory.atStart(), 0.0, stop_early));
+  const SampleEvidence first = start != nullptr ? add(*start) : assessAt(trajectory.atStart(), 0.0);
   SampleEvidence last = first;
-  Motion begin_W = trajectory.atStart();
-  for (int i = 1; i <= stretches.count() && !decided(); ++i) {
-    const Motion end_W = trajectory.sample(stretches.end_s(i));
-    const int steps = stretches.steps(begin_W, end_W, parameters_.collision.vehicle_radius_m);
-    for (int step = 1; step <= steps && !decided(); ++step) {
-      const double share = static_cast<double>(step) / steps;
-      const double elapsed_s = std::lerp(stretches.end_s(i - 1), stretches.end_s(i), share);
-      last = add(assess(step == steps ? end_W : trajectory.sample(elapsed_s), elapsed_s, stop_early));
+  Vec3 previous_W_m = first.position_W_m;
+  for (int i = 1; i <= samples && !decided(); ++i) {
+    const double begin_s = duration_s * (i - 1) / samples;
+    const double end_s = duration_s * i / samples;
+    const Motion next_W = trajectory.sample(end_s);
+    const int parts = std::max(static_cast<int>(std::ceil((next_W.position_m - previous_W_m).norm() / radius_m)), 1);
+    for (int part = 1; part < parts && !decided(); ++part) {
+      const double elapsed_s = std::lerp(begin_s, end_s, static_cast<double>(part) / parts);
+      last = assessAt(trajectory.sample(elapsed_s), elapsed_s);
     }
-    begin_W = end_W;
+    if (!decided()) last = assessAt(next_W, end_s);
+    previous_W_m = next_W.position_m;
   }
   return tally.result(first, last);
 }

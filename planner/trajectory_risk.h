@@ -102,9 +102,8 @@ class SpaceAhead {
   /// @param stop_early  look for no neighbours where the status is a certain veto
   [[nodiscard]] SampleEvidence assess(const Motion& motion_W, double elapsed_s, bool stop_early = false) const;
 
-  /// A whole trajectory, in five stretches of equal time and even steps along each: at least `samples` steps in all,
-  /// and as many as leave none longer than the vehicle's radius, by the speed at both ends of the stretch. So neither a
-  /// thin obstacle nor a hole as wide as the vehicle falls between two samples.
+  /// A whole trajectory, in `samples` steps of equal time, and finer where those are farther apart than the vehicle's
+  /// radius: so that neither a thin obstacle nor a hole as wide as the vehicle falls between two samples.
   /// @param stop_early  stop as soon as the risk is above the constraint
   /// @param evidence    if given, every sample is appended, in the order of evaluation (allocates)
   /// @param start       assess() of the trajectory's start, if that is known: many may start alike
@@ -112,9 +111,8 @@ class SpaceAhead {
                                       std::vector<SampleEvidence>* evidence = nullptr,
                                       const SampleEvidence* start = nullptr) const;
 
-  /// The veto of the first of a few samples of assess(), the ends of its stretches, that is above the constraint all by
-  /// itself; empty if none is. Soon finds most of what assess() would veto after many. `first` and `last` are that
-  /// sample.
+  /// The veto of the first of a few samples of assess(), far apart, that is above the constraint all by itself; empty
+  /// if none is. Soon finds most of what assess() would veto after many. `first` and `last` are that sample.
   [[nodiscard]] std::optional<TrajectoryRisk> glance(const Trajectory& trajectory, int samples) const;
 
  private:

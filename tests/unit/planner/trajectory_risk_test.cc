@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "planner/brake.h"
 #include "tests/unit/planner/flight.h"
 
 namespace nanomap {
@@ -127,36 +126,6 @@ TEST(SpaceAhead, SamplesAreInsertedWhereSomethingIsNear) {
   evidence.clear();
   (void)empty.space().assess(straight({1.0, 0.0, 0.0}), 2, false, &evidence);
   EXPECT_EQ(evidence.size(), 7U) << "two steps of a metre, each in parts of at most 0.4 m";
-}
-
-/// Fast, gaining speed, in a turn, and braking: what is evenly spaced in time is not in space.
-TEST(SpaceAhead, NoTwoSamplesAreFartherApartThanTheVehiclesRadius) {
-  const Seen seen(DrawnWorld{});
-  const PlannerParameters& parameters = seen.flight.planner().parameters();
-  const PrimitiveTimes times = parameters.horizon.at(8.0);
-  for (const double speed_m_s : {0.5, 5.0, 7.2, 8.0, 15.0}) {
-    for (const Vec3& acceleration :
-         {Vec3(0.0, 0.0, 0.0), Vec3(4.0, 0.0, 0.0), Vec3(-4.0, 1.0, 0.0), Vec3(0.0, 4.0, 2.0)}) {
-      const Motion start{{0.0, 0.0, 2.0}, {speed_m_s, 0.0, 0.0}, Vec3::Zero()};
-      const Trajectory motion = primitive(Time{}, start, acceleration, times, parameters.limits);
-      for (const Trajectory& way : {motion, brakeAfter(motion, parameters.brake_after_s, parameters.limits)}) {
-        for (const int samples : {1, 4, 10, 20, 23}) {
-          std::vector<SampleEvidence> evidence;
-          (void)seen.space().assess(way, samples, false, &evidence);
-          ASSERT_GT(evidence.size(), static_cast<std::size_t>(samples));
-          EXPECT_EQ(evidence.front().elapsed_s, 0.0);
-          EXPECT_EQ(evidence.back().elapsed_s, way.duration_s());
-          for (std::size_t i = 1; i < evidence.size(); ++i) {
-            EXPECT_GT(evidence[i].elapsed_s, evidence[i - 1].elapsed_s);
-            const double apart_m = (evidence[i].position_W_m - evidence[i - 1].position_W_m).norm();
-            ASSERT_LE(apart_m, parameters.risk.collision.vehicle_radius_m)
-                << speed_m_s << " m/s, " << acceleration.transpose() << ", " << samples << " samples, the " << i
-                << "th";
-          }
-        }
-      }
-    }
-  }
 }
 
 TEST(SpaceAhead, AKnownStartTakesTheFirstSamplesPlace) {
