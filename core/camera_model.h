@@ -135,9 +135,10 @@ class CameraModel {
     const bool inside = tan_x >= frustum_.tan_left && tan_x <= frustum_.tan_right && tan_y >= frustum_.tan_top &&
                         tan_y <= frustum_.tan_bottom;
     if (!inside) return std::nullopt;
-    const int u = static_cast<int>((tan_x - frustum_.tan_left) * parameters_.fx_px);
-    const int v = static_cast<int>((tan_y - frustum_.tan_top) * parameters_.fy_px);
-    return pixelOfCell({std::min(u, width() - 1), std::min(v, height() - 1)});
+    const auto cell = [](double share, int count) { return std::min(static_cast<int>(share * count), count - 1); };
+    const int u = cell((tan_x - frustum_.tan_left) / (frustum_.tan_right - frustum_.tan_left), width());
+    const int v = cell((tan_y - frustum_.tan_top) / (frustum_.tan_bottom - frustum_.tan_top), height());
+    return pixelOfCell({u, v});
   }
 
  private:
