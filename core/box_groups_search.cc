@@ -57,7 +57,8 @@ class Candidates {
     // Then reach has come down to where finding the next takes longer than visiting one too many.
     constexpr int kVisitedInOrder = 6;
     const IndexTag di;
-    for (std::size_t i = 0; i < Order::kStep; i += kLanes) hn::StoreU(hn::Set(di, Order::kAfterAll), di, &keys_[size_ + i]);
+    for (std::size_t i = 0; i < Order::kStep; i += kLanes)
+      hn::StoreU(hn::Set(di, Order::kAfterAll), di, &keys_[size_ + i]);
     Order::Key next = Order::next(keys_.data(), size_, Order::kBeforeAll);
     for (int i = 0; i < kVisitedInOrder && Order::bound(next) <= reach_sq_m2(); ++i) {
       // What comes after it is found first, else that would wait for the visit.
@@ -97,7 +98,7 @@ class Candidates {
     return size + hn::CountTrue(FloatTag(), chosen);
   }
 
-  // A vector may be written past the last.
+  // Whole steps are written past the last.
   using Column = std::array<std::int32_t, kCapacity + Order::kStep>;
   alignas(64) Column keys_;
   alignas(64) Column boxes_;
