@@ -42,7 +42,8 @@ double largestTangent(const Frustum& frustum) {
 
 float rounded(double value) { return static_cast<float>(value); }
 
-std::size_t blocksFor(std::size_t views) { return (views + kViewLanes - 1) / kViewLanes; }
+/// How many vectors of lanes hold so many.
+std::size_t vectorsFor(std::size_t count) { return (count + kViewLanes - 1) / kViewLanes; }
 
 void setLane(ViewLanes& lanes, std::size_t lane, const SnapshotView& view) {
   for (std::size_t row = 0; row < 3; ++row) {
@@ -80,29 +81,78 @@ ViewLanes withoutViews() {
   return lanes;
 }
 
+/// How far inside each plane of a view's frustum a point p_B is, times the length of the plane's normal, is the product
+/// of a column and (p_B, 1).
+using PlanesOfView = Eigen::Matrix<double, 4, BlockLanes::kPlanes>;
+
+PlanesOfView planesOf(const SnapshotView& view) {
+  const Frustum& frustum = view.view->camera().frustum();
+  Eigen::Matrix<double, 4, 3> T_C_B;  // coordinates, as columns
+  T_C_B << view.R_C_B.transpose(), view.t_C_B_m.transpose();
+  const Eigen::Vector4d z = T_C_B.col(2);
+  PlanesOfView planes;
+  planes << T_C_B.col(0) - frustum.tan_left * z, frustum.tan_right * z - T_C_B.col(0),
+      T_C_B.col(1) - frustum.tan_top * z, frustum.tan_bottom * z - T_C_B.col(1),
+      z - frustum.near_m * Eigen::Vector4d::UnitW(), frustum.far_m * Eigen::Vector4d::UnitW() - z;
+  return planes;
+}
+
+void setLane(BlockLanes& lanes, std::size_t lane, std::span<const SnapshotView> block) {
+  PlanesOfView least = planesOf(block.front());
+  PlanesOfView greatest = least;
+  for (const SnapshotView& view : block.subspan(1)) {
+    const PlanesOfView planes = planesOf(view);
+    least = least.cwiseMin(planes);
+    greatest = greatest.cwiseMax(planes);
+  }
+  for (std::size_t i = 0; i < BlockLanes::kPlanes; ++i) {
+    const auto plane = static_cast<Eigen::Index>(i);
+    const Eigen::Vector4d middle = (least.col(plane) + greatest.col(plane)) / 2.0;
+    const Eigen::Vector4d spread = (greatest.col(plane) - least.col(plane)) / 2.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lanes.planes[i].normal_B[axis][lane] = rounded(middle[static_cast<Eigen::Index>(axis)]);
+      lanes.planes[i].spread_B[axis][lane] = rounded(spread[static_cast<Eigen::Index>(axis)]);
+    }
+    lanes.planes[i].offset_m[lane] = rounded(greatest(3, plane));
+  }
+}
+
+BlockLanes withoutBlocks() {
+  BlockLanes lanes{};
+  for (BlockLanes::Plane& plane : lanes.planes) plane.offset_m.fill(-std::numeric_limits<float>::infinity());
+  return lanes;
+}
+
 }  // namespace
 
 void ViewFilter::assign(std::span<const SnapshotView> views) {
-  lanes_.clear();
+  groups_.clear();
+  blocks_.clear();
   reach_m_ = 0.0;
   largest_tangent_ = 0.0;
   largest_edge_variance_m2_ = 0.0;
   if (!std::ranges::all_of(views, [](const SnapshotView& view) { return isWithinReason(view); })) return;
-  lanes_.resize(blocksFor(views.size()), withoutViews());
+  blocks_.resize(vectorsFor(views.size()), withoutViews());
+  groups_.resize(vectorsFor(blocks_.size()), withoutBlocks());
   for (std::size_t i = 0; i < views.size(); ++i) {
     const SnapshotView& view = views[i];
-    setLane(lanes_[i / kViewLanes], i % kViewLanes, view);
+    setLane(blocks_[i / kViewLanes], i % kViewLanes, view);
     reach_m_ = std::max(reach_m_, view.t_C_B_m.norm());
     largest_tangent_ = std::max(largest_tangent_, largestTangent(view.view->camera().frustum()));
     largest_edge_variance_m2_ = std::max(largest_edge_variance_m2_, view.edge_covariance_C_m2.diagonal().maxCoeff());
+  }
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const auto from_block = views.subspan(i * kViewLanes);
+    setLane(groups_[i / kViewLanes], i % kViewLanes, from_block.first(std::min(from_block.size(), kViewLanes)));
   }
 }
 
 ViewFilter::Walk::Walk(const ViewFilter& filter, std::size_t view_count, const UncertainPoint& x_B, std::uint32_t first)
     : view_count_(static_cast<std::uint32_t>(view_count)), first_(first) {
-  assert(filter.empty() || filter.lanes_.size() == blocksFor(view_count));
+  assert(filter.empty() || filter.blocks_.size() == vectorsFor(view_count));
   if (filter.empty() || !isWithinReason(x_B)) return;
-  lanes_ = filter.lanes_;
+  groups_ = filter.groups_;
+  blocks_ = filter.blocks_;
   const Mat3& s = x_B.covariance_m2;
   const double variances_m2 = filter.largest_edge_variance_m2_ + s.norm();
   const double lengths_m = x_B.mean_m.norm() + filter.reach_m_ + std::sqrt(variances_m2);
@@ -119,17 +169,13 @@ ViewFilter::Walk::Walk(const ViewFilter& filter, std::size_t view_count, const U
 }
 
 std::optional<std::uint32_t> ViewFilter::Walk::next() {
-  if (lanes_.empty()) return first_ < view_count_ ? std::optional(first_++) : std::nullopt;
+  if (blocks_.empty()) return first_ < view_count_ ? std::optional(first_++) : std::nullopt;
   for (;;) {
-    while (probed_.left == 0) {
-      block_ += scanViews(lanes_.subspan(block_), probe_, probed_);
-      if (block_ == lanes_.size()) return std::nullopt;
-      ++block_;
-    }
+    if (probed_.left == 0 && !scanViews(groups_, blocks_, probe_, probed_)) return std::nullopt;
     lane_ = static_cast<std::uint32_t>(std::countr_zero(probed_.left));
     probed_.left &= probed_.left - 1;
-    const auto view_index = static_cast<std::uint32_t>((block_ - 1) * kViewLanes) + lane_;
-    if (view_index >= first_ && !isOccluded(lanes_[block_ - 1], lane_)) return view_index;
+    const auto view_index = static_cast<std::uint32_t>(probed_.block * kViewLanes) + lane_;
+    if (view_index >= first_ && !isOccluded(blocks_[probed_.block], lane_)) return view_index;
   }
 }
 
@@ -143,8 +189,8 @@ bool ViewFilter::Walk::isOccluded(const ViewLanes& lanes, std::uint32_t lane) co
 }
 
 bool ViewFilter::Walk::isBeforeHole(const QueryOptions& options) const {
-  if (lanes_.empty()) return false;
-  const ViewLanes& lanes = lanes_[block_ - 1];
+  if (blocks_.empty()) return false;
+  const ViewLanes& lanes = blocks_[probed_.block];
   if ((probed_.in_cell & lanes.upright & 1U << lane_) == 0) return false;
   const View& view = *lanes.view[lane_];
   const CameraModel::Pixel pixel = view.camera().pixelOfCell({probed_.column[lane_], probed_.row[lane_]});

@@ -30,7 +30,7 @@ class ViewFilter {
   /// `views` point to.
   void assign(std::span<const SnapshotView> views);
 
-  [[nodiscard]] bool empty() const { return lanes_.empty(); }
+  [[nodiscard]] bool empty() const { return blocks_.empty(); }
 
   /// The views that may answer `x_B`, in order. Borrows the filter, which borrows the views.
   class Walk {
@@ -48,19 +48,20 @@ class ViewFilter {
    private:
     [[nodiscard]] bool isOccluded(const ViewLanes& lanes, std::uint32_t lane) const;
 
-    std::span<const ViewLanes> lanes_;  ///< none: nothing is ruled out
+    std::span<const BlockLanes> groups_;
+    std::span<const ViewLanes> blocks_;  ///< none: nothing is ruled out
     std::uint32_t view_count_;
     std::uint32_t first_;     ///< views before it are of no interest
-    std::size_t block_ = 0;   ///< the block behind that of `probed_`
-    std::uint32_t lane_ = 0;  ///< there, of the view that next() gave last
+    std::uint32_t lane_ = 0;  ///< of the view that next() gave last, in the block of `probed_`
     PointProbe probe_;
     ProbedLanes probed_;
   };
 
  private:
-  std::vector<ViewLanes> lanes_;
-  double reach_m_ = 0.0;          ///< largest |t_C_B|
-  double largest_tangent_ = 0.0;  ///< of a side plane
+  std::vector<BlockLanes> groups_;  ///< of blocks
+  std::vector<ViewLanes> blocks_;   ///< of views
+  double reach_m_ = 0.0;            ///< largest |t_C_B|
+  double largest_tangent_ = 0.0;    ///< of a side plane
   double largest_edge_variance_m2_ = 0.0;
 };
 

@@ -31,6 +31,22 @@ struct alignas(64) ViewLanes {
   std::uint32_t upright = 0;  ///< bits of the lanes where liesBelowGlance() holds
 };
 
+/// Of sixteen neighbouring blocks, which are the views of a ViewLanes each: how far inside a plane of the frustum a
+/// point p_B can be in any view of the block, times the length of the plane's normal, is
+///     normal_B . p_B + spread_B . |p_B| + offset_m
+/// at most. A lane without a block has offsets of minus infinity.
+struct alignas(64) BlockLanes {
+  static constexpr std::size_t kPlanes = 6;
+  using Floats = ViewLanes::Floats;
+
+  struct Plane {
+    std::array<Floats, 3> normal_B;
+    std::array<Floats, 3> spread_B;
+    Floats offset_m;
+  };
+  std::array<Plane, kPlanes> planes;
+};
+
 /// An uncertain point as the filter takes it: rounded, with what rounding can do to it.
 struct PointProbe {
   std::array<float, 3> mean_B_m;
@@ -39,10 +55,13 @@ struct PointProbe {
   float slack_m2;                        ///< above every error of a variance
 };
 
-/// Where the mean falls in the views that the filter left.
+/// Where the mean falls in the views of a block that the filter left, and where to go on.
 struct ProbedLanes {
-  std::uint32_t left = 0;     ///< bits of the lanes that may answer
-  std::uint32_t in_cell = 0;  ///< bits of the lanes whose cell is certain
+  std::size_t block = 0;           ///< that the lanes are of
+  std::size_t groups_entered = 0;  ///< of sixteen blocks
+  std::uint32_t blocks_ahead = 0;  ///< bits of those in the group entered last that are to be probed
+  std::uint32_t left = 0;          ///< bits of the lanes that may answer
+  std::uint32_t in_cell = 0;       ///< bits of the lanes whose cell is certain
   alignas(64) std::array<std::int32_t, kViewLanes> column;
   alignas(64) std::array<std::int32_t, kViewLanes> row;
   alignas(64) std::array<std::int32_t, kViewLanes> tile;  ///< of the cell

@@ -32,6 +32,12 @@ static_assert(1 << kTileShift == DepthTiles::kEdge_px);
 constexpr auto kFirstColumn = static_cast<std::int32_t>(DepthTiles::Cover::kFirstColumn);
 constexpr auto kFirstRow = static_cast<std::int32_t>(DepthTiles::Cover::kFirstRow);
 
+HWY_INLINE std::uint32_t bitsOf(Mask mask) {
+  HWY_ALIGN std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Float(), mask, bytes);
+  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+}
+
 /// DepthTiles::Cover of many views.
 struct CoverLanes {
   alignas(64) std::array<std::int32_t, kViewLanes> bits;
@@ -78,7 +84,7 @@ class VectorProbe {
     if (hn::AllFalse(d, hn::Ge(hn::Min(in_range, in_sides), zero))) return;
 
     // Occlusion first: it rules out most and costs least.
-    const std::uint32_t inside = bits(hn::Ge(hn::Min(in_range, in_sides), zero));
+    const std::uint32_t inside = bitsOf(hn::Ge(hn::Min(in_range, in_sides), zero));
     const Cells cells = findCells(z, from_left, from_top, inside, out);
     const std::uint32_t visible = inside & ~behindTiles(cells, inside, out);
     if (visible == 0) return;
@@ -91,7 +97,7 @@ class VectorProbe {
                 hn::And(hn::Ge(from_right, support(half_x, half_z, views_.tan_right)),
                         hn::And(hn::Ge(from_top, support(half_y, half_z, views_.tan_top)),
                                 hn::Ge(from_bottom, support(half_y, half_z, views_.tan_bottom)))));
-    out.left |= (visible & bits(contained)) << first_;
+    out.left |= (visible & bitsOf(contained)) << first_;
   }
 
  private:
@@ -123,7 +129,7 @@ class VectorProbe {
     hn::Store(column, di, out.column.data() + first_);
     hn::Store(row, di, out.row.data() + first_);
     const IntVec other = hn::Or(hn::Xor(column, max_column), hn::Xor(row, max_row));
-    out.in_cell |= (inside & bits(hn::And(deep, hn::RebindMask(d, hn::Eq(other, hn::Zero(di)))))) << first_;
+    out.in_cell |= (inside & bitsOf(hn::And(deep, hn::RebindMask(d, hn::Eq(other, hn::Zero(di)))))) << first_;
 
     const FloatVec raw = hn::Mul(hn::Sub(z, slack), load(views_.counts_per_m));
     const FloatVec certain_raw = hn::Min(hn::Max(raw, hn::Zero(d)), hn::Set(d, kGreatestCertainRaw));
@@ -135,7 +141,7 @@ class VectorProbe {
     const IntVec tile = hn::Add(hn::Mul(tile_row, tile_columns), hn::ShiftRight<kTileShift>(column));
     hn::Store(tile, di, out.tile.data() + first_);
     return {lines(kFirstColumn, column, max_column), lines(kFirstRow, row, max_row), hn::Eq(column, max_column),
-            bits(hn::And(deep, hn::RebindMask(d, one_tile)))};
+            bitsOf(hn::And(deep, hn::RebindMask(d, one_tile)))};
   }
 
   /// The bits of a cover's columns or rows from one to another.
@@ -163,7 +169,7 @@ class VectorProbe {
     const IntVec steps = hn::Load(di, covers.steps.data() + first_);
     const IntVec down = hn::IfThenElseZero(cells.one_column, below(bits_of_cover, steps, column));
     const auto nearer = hn::Lt(raw, hn::Sub(greatest(bits_of_cover), down));
-    return inside & views_.tiled >> first_ & cells.in_tile & ~bits(hn::RebindMask(d, hn::Or(may_be_gap, nearer)));
+    return inside & views_.tiled >> first_ & cells.in_tile & ~bitsOf(hn::RebindMask(d, hn::Or(may_be_gap, nearer)));
   }
 
   /// DepthTiles::Cover::greatest().
@@ -239,27 +245,54 @@ class VectorProbe {
     return hn::ConvertTo(Int(), hn::Min(hn::Max(cell, hn::Zero(Float())), last));
   }
 
-  HWY_INLINE std::uint32_t bits(Mask mask) const {
-    HWY_ALIGN std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Float(), mask, bytes);
-    return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
-  }
-
   const ViewLanes& views_;
   std::size_t first_;
   const PointProbe& probe_;
 };
 
-std::size_t scan(std::span<const ViewLanes> lanes, const PointProbe& probe, ProbedLanes& out) {
-  for (std::size_t block = 0; block < lanes.size(); ++block) {
+/// BlockLanes's bound on `plane`, in the blocks from `first` on.
+HWY_INLINE FloatVec greatestInside(const BlockLanes::Plane& plane, std::size_t first, const PointProbe& probe) {
+  const Float d;
+  FloatVec inside_m = hn::Load(d, plane.offset_m.data() + first);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const FloatVec p_B = hn::Set(d, probe.mean_B_m[axis]);
+    inside_m = hn::MulAdd(hn::Load(d, plane.normal_B[axis].data() + first), p_B, inside_m);
+    inside_m = hn::MulAdd(hn::Load(d, plane.spread_B[axis].data() + first), hn::Abs(p_B), inside_m);
+  }
+  return inside_m;
+}
+
+/// Bits of the blocks that the mean may be in the frustum of a view of.
+std::uint32_t blocksAround(const BlockLanes& group, const PointProbe& probe) {
+  const Float d;
+  std::uint32_t around = 0;
+  for (std::size_t first = 0; first < kViewLanes; first += VectorProbe::laneCount()) {
+    FloatVec inside_m = greatestInside(group.planes[0], first, probe);
+    for (std::size_t i = 1; i < BlockLanes::kPlanes; ++i) {
+      inside_m = hn::Min(inside_m, greatestInside(group.planes[i], first, probe));
+    }
+    around |= bitsOf(hn::Ge(inside_m, hn::Set(d, -probe.slack_m))) << first;
+  }
+  return around;
+}
+
+bool scan(std::span<const BlockLanes> groups, std::span<const ViewLanes> blocks, const PointProbe& probe,
+          ProbedLanes& out) {
+  for (;;) {
+    while (out.blocks_ahead == 0) {
+      if (out.groups_entered == groups.size()) return false;
+      out.blocks_ahead = blocksAround(groups[out.groups_entered++], probe);
+    }
+    const auto in_group = static_cast<std::size_t>(std::countr_zero(out.blocks_ahead));
+    out.blocks_ahead &= out.blocks_ahead - 1;
+    out.block = (out.groups_entered - 1) * kViewLanes + in_group;
     out.left = 0;
     out.in_cell = 0;
     for (std::size_t first = 0; first < kViewLanes; first += VectorProbe::laneCount()) {
-      VectorProbe(lanes[block], first, probe).run(out);
+      VectorProbe(blocks[out.block], first, probe).run(out);
     }
-    if (out.left != 0) return block;
+    if (out.left != 0) return true;
   }
-  return lanes.size();
 }
 
 }  // namespace nanomap::HWY_NAMESPACE
@@ -270,8 +303,9 @@ namespace nanomap {
 
 HWY_EXPORT(scan);
 
-std::size_t scanViews(std::span<const ViewLanes> lanes, const PointProbe& probe, ProbedLanes& out) {
-  return HWY_DYNAMIC_DISPATCH(scan)(lanes, probe, out);
+bool scanViews(std::span<const BlockLanes> groups, std::span<const ViewLanes> blocks, const PointProbe& probe,
+               ProbedLanes& out) {
+  return HWY_DYNAMIC_DISPATCH(scan)(groups, blocks, probe, out);
 }
 
 }  // namespace nanomap
