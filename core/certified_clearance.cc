@@ -53,7 +53,7 @@ CertifiedClearance certifiedClearance(const ChainSnapshot& snapshot, const Vec3&
   const UncertainPoint x_B{p_B, Mat3::Zero()};
   LargestBall ball(snapshot, x_B, options, limit_m);
   for (const bool between : {false, true}) {
-    ViewFilter::Walk candidates(snapshot.filter, snapshot.views.size(), x_B, 0);
+    ViewFilter::Walk candidates(snapshot.filter, snapshot.views.size(), x_B, options, 0);
     std::uint32_t count = 0;
     while (const auto view_index = candidates.next()) {
       if ((count++ % kStride != 0) != between) continue;

@@ -9,17 +9,6 @@
 namespace nanomap {
 namespace {
 
-/// Is the box mean +- half_size inside the frustum? Each plane is tested against the box's support in its direction.
-bool contains(const Frustum& frustum, const Vec3& mean_C, const Vec3& half_size_C) {
-  const auto side = [&](int axis, double tangent, double sign) {
-    const double distance = sign * (mean_C[axis] - tangent * mean_C.z());
-    return distance >= half_size_C[axis] + std::abs(tangent) * half_size_C.z();
-  };
-  return side(0, frustum.tan_left, 1.0) && side(0, frustum.tan_right, -1.0) &&  //
-         side(1, frustum.tan_top, 1.0) && side(1, frustum.tan_bottom, -1.0) &&  //
-         mean_C.z() - half_size_C.z() >= frustum.near_m && mean_C.z() + half_size_C.z() <= frustum.far_m;
-}
-
 /// Does a return in the box's pixel footprint lie in front of the box's far face? @pre the box is in the frustum
 bool occludesBox(const View& view, const Vec3& mean_C, const Vec3& half_size_C) {
   const double near_z_m = mean_C.z() - half_size_C.z();
@@ -66,11 +55,11 @@ Status classifyLazily(const View& view, const Vec3& mean_C_m, const Vec3& up_C, 
   const std::uint16_t raw = view.rawAt(pixel->u, pixel->v);
   if (camera.classify(raw) == DepthReading::kNone) {
     if (!isOpen(view, PixelRect::of(*pixel), z_m, up_C, options)) return Status::kHole;
-    return contains(frustum, mean_C_m, half_size()) ? Status::kOpen : Status::kPartial;
+    return contains(frustum, mean_C_m, half_size().array() + options.margin_m) ? Status::kOpen : Status::kPartial;
   }
   if (z_m >= static_cast<double>(camera.depth(raw))) return Status::kOccluded;
   const Vec3 half_size_C_m = half_size();
-  if (!contains(frustum, mean_C_m, half_size_C_m)) return Status::kPartial;
+  if (!contains(frustum, mean_C_m, half_size_C_m.array() + options.margin_m)) return Status::kPartial;
   if (options.occlusion == OcclusionTest::kFootprint && occludesBox(view, mean_C_m, half_size_C_m)) {
     return Status::kPartial;
   }
@@ -78,6 +67,16 @@ Status classifyLazily(const View& view, const Vec3& mean_C_m, const Vec3& up_C, 
 }
 
 }  // namespace
+
+bool contains(const Frustum& frustum, const Vec3& mean_C_m, const Vec3& half_size_C_m) {
+  const auto side = [&](int axis, double tangent, double sign) {
+    const double distance = sign * (mean_C_m[axis] - tangent * mean_C_m.z());
+    return distance >= half_size_C_m[axis] + std::abs(tangent) * half_size_C_m.z();
+  };
+  return side(0, frustum.tan_left, 1.0) && side(0, frustum.tan_right, -1.0) &&  //
+         side(1, frustum.tan_top, 1.0) && side(1, frustum.tan_bottom, -1.0) &&  //
+         mean_C_m.z() - half_size_C_m.z() >= frustum.near_m && mean_C_m.z() + half_size_C_m.z() <= frustum.far_m;
+}
 
 Status classify(const View& view, const Vec3& mean_C_m, const Vec3& half_size_C_m, const Vec3& up_C,
                 const QueryOptions& options) {

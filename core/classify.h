@@ -15,7 +15,10 @@ namespace nanomap {
 [[nodiscard]] Status classify(const View& view, const Vec3& mean_C_m, const Vec3& half_size_C_m, const Vec3& up_C,
                               const QueryOptions& options);
 
-/// The same for x_B, in the frame of the snapshot that the view is part of.
+/// Is the box mean +- half_size inside the frustum? Each plane is tested against the box's support in its direction.
+[[nodiscard]] bool contains(const Frustum& frustum, const Vec3& mean_C_m, const Vec3& half_size_C_m);
+
+/// classify() for x_B, in the frame of the snapshot that the view is part of.
 [[nodiscard]] Status classify(const SnapshotView& candidate, const UncertainPoint& x_B, const QueryOptions& options);
 
 /// Does the backward search end at a view with this status?

@@ -10,9 +10,9 @@ Location locate(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const 
   if (snapshot.views.empty()) return {};
   const Location newest{classify(snapshot.views.front(), x_B, options), 0};
   if (endsSearch(newest.status)) return newest;
-  ViewFilter::Walk candidates(snapshot.filter, snapshot.views.size(), x_B, 1);
+  ViewFilter::Walk candidates(snapshot.filter, snapshot.views.size(), x_B, options, 1);
   while (const auto i = candidates.next()) {
-    if (candidates.isBeforeHole(options)) continue;
+    if (candidates.isBeforeHole()) continue;
     const Status status = classify(snapshot.views[*i], x_B, options);
     if (endsSearch(status)) return {status, i};
   }

@@ -13,10 +13,12 @@ enum class OcclusionTest : std::uint8_t {
 struct QueryOptions {
   int k = 1;  ///< neighbours wanted, 1 .. kMaxNeighbours
   OcclusionTest occlusion = OcclusionTest::kMean;
+  /// A view is to hold so much more around the box, on all sides [m]; 0 in the paper. Not negative.
+  double margin_m = 0.0;
   int open_window_px = 32;           ///< reach, to all sides, of the window that tells sky from a hole
   double open_range_fraction = 0.7;  ///< returns beyond this part of the range do not speak against sky
-  /// Reach of a second window, in metres beside the point: what is seen in it and is not this much farther away than the
-  /// point may be a pane's frame, which close by lies outside of a window in pixels.
+  /// Reach of a second window, in metres beside the point: what is seen in it and is not this much farther away than
+  /// the point may be a pane's frame, which close by lies outside of a window in pixels.
   double open_frame_m = 2.0;
 
   /// Also how much of the space around the point is known to be empty (core/certified_clearance.h): costs many times

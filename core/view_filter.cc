@@ -147,15 +147,16 @@ void ViewFilter::assign(std::span<const SnapshotView> views) {
   }
 }
 
-ViewFilter::Walk::Walk(const ViewFilter& filter, std::size_t view_count, const UncertainPoint& x_B, std::uint32_t first)
-    : view_count_(static_cast<std::uint32_t>(view_count)), first_(first) {
+ViewFilter::Walk::Walk(const ViewFilter& filter, std::size_t view_count, const UncertainPoint& x_B,
+                       const QueryOptions& options, std::uint32_t first)
+    : options_(options), view_count_(static_cast<std::uint32_t>(view_count)), first_(first) {
   assert(filter.empty() || filter.blocks_.size() == vectorsFor(view_count));
-  if (filter.empty() || !isWithinReason(x_B)) return;
+  if (filter.empty() || !isWithinReason(x_B) || !(options.margin_m <= kLargest)) return;
   groups_ = filter.groups_;
   blocks_ = filter.blocks_;
   const Mat3& s = x_B.covariance_m2;
   const double variances_m2 = filter.largest_edge_variance_m2_ + s.norm();
-  const double lengths_m = x_B.mean_m.norm() + filter.reach_m_ + std::sqrt(variances_m2);
+  const double lengths_m = x_B.mean_m.norm() + filter.reach_m_ + std::sqrt(variances_m2) + options.margin_m;
   const double roundoff = kUnitRoundoff * kRoundingUp;
   probe_.mean_B_m = {rounded(x_B.mean_m.x()), rounded(x_B.mean_m.y()), rounded(x_B.mean_m.z())};
   probe_.covariance_B_m2 = {rounded(s(0, 0)),
@@ -165,6 +166,7 @@ ViewFilter::Walk::Walk(const ViewFilter& filter, std::size_t view_count, const U
                             rounded(0.5 * (s(0, 2) + s(2, 0))),
                             rounded(0.5 * (s(1, 2) + s(2, 1)))};
   probe_.slack_m = rounded(kLengthRoundings * roundoff * lengths_m * (1.0 + filter.largest_tangent_));
+  probe_.margin_m = rounded(options.margin_m);
   probe_.slack_m2 = rounded(kVarianceRoundings * roundoff * variances_m2);
 }
 
@@ -188,14 +190,14 @@ bool ViewFilter::Walk::isOccluded(const ViewLanes& lanes, std::uint32_t lane) co
   return probed_.raw[lane] >= raw && view.camera().classify(raw) != DepthReading::kNone;
 }
 
-bool ViewFilter::Walk::isBeforeHole(const QueryOptions& options) const {
+bool ViewFilter::Walk::isBeforeHole() const {
   if (blocks_.empty()) return false;
   const ViewLanes& lanes = blocks_[probed_.block];
   if ((probed_.in_cell & lanes.upright & 1U << lane_) == 0) return false;
   const View& view = *lanes.view[lane_];
   const CameraModel::Pixel pixel = view.camera().pixelOfCell({probed_.column[lane_], probed_.row[lane_]});
   const std::uint16_t raw = view.rawAt(pixel.u, pixel.v);
-  return view.camera().classify(raw) == DepthReading::kNone && isHoleAtGlance(view, pixel, options);
+  return view.camera().classify(raw) == DepthReading::kNone && isHoleAtGlance(view, pixel, options_);
 }
 
 }  // namespace nanomap

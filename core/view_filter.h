@@ -18,10 +18,11 @@ namespace nanomap {
 /// vector unit, or on there being a filter at all.
 ///
 /// Why it is certain. With u = 2^-24, m = |mean_B| + max |t_C_B|, T the largest tangent of a side plane and h the
-/// largest half size of a box, each of a few dozen roundings: a coordinate is off by at most 8 u m, a distance from a
-/// side plane (times the length of its normal) by 11 u m (1 + T), a half size's share of it by 4 u h (1 + T), the
-/// distance that makes a cell by 27 u m (1 + T); slack_m = 64 u (m + h) (1 + T) is above the sum of any of these that
-/// meet. A variance is off by at most 14 u times the sum of the variances that make it; slack_m2 is 32 u times that.
+/// largest half size of a box with its margin, each of a few dozen roundings: a coordinate is off by at most 8 u m, a
+/// distance from a side plane (times the length of its normal) by 11 u m (1 + T), a half size's share of it by 4 u h (1
+/// + T), the distance that makes a cell by 27 u m (1 + T); slack_m = 64 u (m + h) (1 + T) is above the sum of any of
+/// these that meet. A variance is off by at most 14 u times the sum of the variances that make it; slack_m2 is 32 u
+/// times that.
 ///
 /// Threads: any number of readers. Allocates only when it holds more views than ever before.
 class ViewFilter {
@@ -36,20 +37,23 @@ class ViewFilter {
   class Walk {
    public:
     /// @param view_count  as many as the filter was assigned; if it is empty, all of them are walked
+    /// @param options     what is asked; borrowed
     /// @param first       the first view of interest
-    Walk(const ViewFilter& filter, std::size_t view_count, const UncertainPoint& x_B, std::uint32_t first);
+    Walk(const ViewFilter& filter, std::size_t view_count, const UncertainPoint& x_B, const QueryOptions& options,
+         std::uint32_t first);
 
     /// The next view; empty behind the last.
     [[nodiscard]] std::optional<std::uint32_t> next();
 
     /// Is the mean certainly before a hole, in the view that next() gave last?
-    [[nodiscard]] bool isBeforeHole(const QueryOptions& options) const;
+    [[nodiscard]] bool isBeforeHole() const;
 
    private:
     [[nodiscard]] bool isOccluded(const ViewLanes& lanes, std::uint32_t lane) const;
 
     std::span<const BlockLanes> groups_;
     std::span<const ViewLanes> blocks_;  ///< none: nothing is ruled out
+    const QueryOptions& options_;
     std::uint32_t view_count_;
     std::uint32_t first_;     ///< views before it are of no interest
     std::uint32_t lane_ = 0;  ///< of the view that next() gave last, in the block of `probed_`

@@ -51,6 +51,7 @@ struct alignas(64) BlockLanes {
 struct PointProbe {
   std::array<float, 3> mean_B_m;
   std::array<float, 6> covariance_B_m2;  ///< xx, yy, zz, xy, xz, yz
+  float margin_m;                        ///< of the box, on all sides
   float slack_m;                         ///< above every error of a length or a distance times (1 + tangent)
   float slack_m2;                        ///< above every error of a variance
 };

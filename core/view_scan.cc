@@ -209,7 +209,8 @@ class VectorProbe {
     const auto& row = views_.R_C_B[axis];
     const FloatVec variance =
         hn::Add(load(views_.edge_variance_C_m2[axis]), rotatedVariance(load(row[0]), load(row[1]), load(row[2])));
-    return hn::Sqrt(hn::Max(hn::Sub(variance, hn::Set(d, probe_.slack_m2)), hn::Zero(d)));
+    const FloatVec deviation = hn::Sqrt(hn::Max(hn::Sub(variance, hn::Set(d, probe_.slack_m2)), hn::Zero(d)));
+    return hn::Add(deviation, hn::Set(d, probe_.margin_m));
   }
 
   /// r^T Sigma r, with r = (a, b, c).

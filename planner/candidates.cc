@@ -16,7 +16,9 @@ Candidates::Candidates(const PlannerParameters& parameters, const PrimitiveLibra
       start_(start),
       at_start_W_(at_start_W),
       start_evidence_(space_.assess(at_start_W, 0.0)),
-      R_W_L_(levelAxes(yaw_W_rad)) {}
+      R_W_L_(levelAxes(yaw_W_rad)) {
+  space_.lookBeside(at_start_W, start_evidence_);
+}
 
 Vec3 Candidates::acceleration_L(std::uint32_t index) const {
   const Vec3& velocity_W = at_start_W_.velocity_m_s;
@@ -51,7 +53,10 @@ Proposal Candidates::propose(std::uint32_t index) const {
 }
 
 TrajectoryRisk Candidates::assessBrake(std::uint32_t index) const {
-  return space_.assess(brake(index), parameters_.brake_samples, false, nullptr, &start_evidence_);
+  const Trajectory trajectory = brake(index);
+  TrajectoryRisk risk = space_.assess(trajectory, parameters_.brake_samples, false, nullptr, &start_evidence_);
+  space_.lookBeside(trajectory, parameters_.brake_samples, false, risk);
+  return risk;
 }
 
 Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* evidence) const {
@@ -79,6 +84,23 @@ Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* eviden
   const SampleEvidence& end = verdict.stop->last;
   if (!verdict.veto && !end.seenFree()) verdict.veto = VetoCause{end.status};
   return verdict;
+}
+
+void Candidates::lookBeside(std::uint32_t index, bool stop_early, Verdict& verdict, Evidence* evidence) const {
+  if (verdict.veto) return;
+  space_.lookBeside(motion(index), parameters_.samples, stop_early, verdict.motion,
+                    evidence != nullptr ? &evidence->motion : nullptr);
+  verdict.veto = verdict.motion.veto;
+  if (!verdict.stop) return;
+  if (index == kBrake) {
+    verdict.stop = verdict.motion;
+  } else if (verdict.veto) {
+    verdict.stop.reset();
+  } else {
+    space_.lookBeside(brake(index), parameters_.brake_samples, stop_early, *verdict.stop,
+                      evidence != nullptr ? &evidence->brake : nullptr);
+    verdict.veto = verdict.stop->veto;
+  }
 }
 
 }  // namespace nanomap

@@ -23,7 +23,7 @@ struct Proposal {
 /// What queries said about a candidate.
 struct Verdict {
   TrajectoryRisk motion;
-  std::optional<TrajectoryRisk> stop;  ///< of its brake, if that was checked
+  std::optional<TrajectoryRisk> stop;  ///< of its brake, if the motion has no veto and that was checked
   std::optional<VetoCause> veto;       ///< empty: feasible
 
   [[nodiscard]] bool vetoedByBrake() const { return veto && stop; }
@@ -58,9 +58,14 @@ class Candidates {
   /// All of the candidate's brake, whatever its motion is worth.
   [[nodiscard]] TrajectoryRisk assessBrake(std::uint32_t index) const;
 
+  /// By the views that answer. What is feasible so far may lead past something that lies beside those: lookBeside().
   /// @param stop_early  leave the risk of what is vetoed unfinished
   /// @param evidence    filled if given
   [[nodiscard]] Verdict judge(std::uint32_t index, bool stop_early, Evidence* evidence = nullptr) const;
+
+  /// Adds what lies beside the views that answered to judge()'s verdict and evidence, unless it is a veto. Only raises
+  /// risks: what is not worth choosing need not be looked beside.
+  void lookBeside(std::uint32_t index, bool stop_early, Verdict& verdict, Evidence* evidence = nullptr) const;
 
  private:
   const PlannerParameters& parameters_;

@@ -72,7 +72,22 @@ struct Choice {
   Verdict verdict;
 };
 
-/// The feasible candidate of the highest objective; of equal ones the lowest index. Counts into `decision`.
+/// The higher objective; of equal ones the lower index.
+bool isBetter(const Choice& choice, const Choice& other) {
+  return choice.objective > other.objective || (choice.objective == other.objective && choice.index < other.index);
+}
+
+void count(const Verdict& verdict, Decision& decision) {
+  if (!verdict.veto) {
+    ++decision.feasible;
+    return;
+  }
+  ++(verdict.veto->status ? decision.vetoes.by_status[static_cast<std::size_t>(*verdict.veto->status)]
+                          : decision.vetoes.by_neighbours);
+  if (verdict.vetoedByBrake()) ++decision.vetoes.of_brakes;
+}
+
+/// The best of the feasible candidates. Counts into `decision`.
 std::optional<Choice> choose(const Task& task, bool early_exit, Decision& decision) {
   std::array<Proposal, kCandidateCount> storage;
   const std::span proposals = std::span(storage).subspan(task.firstCandidate());
@@ -87,19 +102,19 @@ std::optional<Choice> choose(const Task& task, bool early_exit, Decision& decisi
   std::optional<Choice> best;
   for (const Proposal& proposal : proposals) {
     if (early_exit && best && proposal.bound < best->objective) break;
-    const Verdict verdict = task.candidates.judge(proposal.index, early_exit);
+    Choice choice{proposal.index, 0.0, task.candidates.judge(proposal.index, early_exit)};
     ++decision.evaluated;
-    if (verdict.veto) {
-      ++(verdict.veto->status ? decision.vetoes.by_status[static_cast<std::size_t>(*verdict.veto->status)]
-                              : decision.vetoes.by_neighbours);
-      if (verdict.vetoedByBrake()) ++decision.vetoes.of_brakes;
-      continue;
+    const auto isBest = [&] {
+      if (choice.verdict.veto) return false;
+      choice.objective = task.candidates.objective().value(proposal.reward, choice.verdict.motion.risk);
+      return !best || isBetter(choice, *best);
+    };
+    // What lies beside the views that answer makes nothing better: only what would be the best is looked beside.
+    if (isBest()) {
+      task.candidates.lookBeside(choice.index, early_exit, choice.verdict);
+      if (isBest()) best = choice;
     }
-    ++decision.feasible;
-    const double objective = task.candidates.objective().value(proposal.reward, verdict.motion.risk);
-    const bool better =
-        !best || objective > best->objective || (objective == best->objective && proposal.index < best->index);
-    if (better) best = Choice{proposal.index, objective, verdict};
+    count(choice.verdict, decision);
   }
   return best;
 }
@@ -205,6 +220,7 @@ Explanation Planner::explain(const ChainSnapshot& snapshot, const VehicleState& 
     candidate.trajectory = task.candidates.motion(index);
     candidate.brake = task.candidates.brake(index);
     candidate.verdict = task.candidates.judge(index, false, &candidate.evidence);
+    task.candidates.lookBeside(index, false, candidate.verdict, &candidate.evidence);
     candidate.objective = task.candidates.objective().value(candidate.proposal.reward, candidate.verdict.motion.risk);
     explanation.candidates.push_back(std::move(candidate));
   }

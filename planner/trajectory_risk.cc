@@ -6,6 +6,12 @@
 namespace nanomap {
 namespace {
 
+/// Of TrajectoryRisk::cramped.
+constexpr std::uint64_t crampedBit(std::size_t sample) {
+  constexpr std::size_t kLast = 63;
+  return std::uint64_t{1} << std::min(sample, kLast);
+}
+
 /// The running risk of a trajectory, and what weighed most when it went over the constraint.
 class RiskTally {
  public:
@@ -15,6 +21,8 @@ class RiskTally {
     survival_ *= 1.0 - sample.risk;
     result_.least_distance_m = std::min(result_.least_distance_m, sample.distance_m());
     result_.largest_prior = std::max(result_.largest_prior, sample.prior);
+    if (sample.cramped) result_.cramped |= crampedBit(count_);
+    ++count_;
     if (result_.veto) return;
     if (sample.risk > heaviest_.risk) heaviest_ = sample;
     if (1.0 - survival_ <= max_risk_) return;
@@ -40,14 +48,62 @@ class RiskTally {
  private:
   double max_risk_;
   double survival_ = 1.0;
+  std::size_t count_ = 0;
   SampleEvidence heaviest_;
   TrajectoryRisk result_;
 };
 
+/// Calls `visit(motion_W, elapsed_s)` for the samples behind a trajectory's start, in turn, until one says false:
+/// `samples` of equal time, and others between where those are farther apart than `longest_step_m`.
+template <class Visitor>
+void visitSamples(const Trajectory& trajectory, int samples, double longest_step_m, Visitor&& visit) {
+  const double duration_s = trajectory.duration_s();
+  Vec3 previous_W_m = trajectory.atStart().position_m;
+  for (int i = 1; i <= samples; ++i) {
+    const double begin_s = duration_s * (i - 1) / samples;
+    const double end_s = duration_s * i / samples;
+    const Motion next_W = trajectory.sample(end_s);
+    const double apart_m = (next_W.position_m - previous_W_m).norm();
+    const int parts = std::max(static_cast<int>(std::ceil(apart_m / longest_step_m)), 1);
+    for (int part = 1; part < parts; ++part) {
+      const double elapsed_s = std::lerp(begin_s, end_s, static_cast<double>(part) / parts);
+      if (!visit(trajectory.sample(elapsed_s), elapsed_s)) return;
+    }
+    if (!visit(next_W, end_s)) return;
+    previous_W_m = next_W.position_m;
+  }
+}
+
+/// One error of the vehicle's place is behind all ways to touch something: the likeliest of them counts.
+double reached(const SampleEvidence& sample) {
+  return std::max({sample.collision_probability, sample.unseen_probability, sample.beside.collision_probability});
+}
+
+double riskOf(const SampleEvidence& sample) { return 1.0 - (1.0 - sample.prior) * (1.0 - reached(sample)); }
+
 }  // namespace
 
+/// Where the vehicle may be at a moment.
+struct SpaceAhead::Place {
+  UncertainPoint x_B;
+  double deviation_m;  ///< the largest of x_B
+};
+
+/// What a view has measured there.
+struct SpaceAhead::Near {
+  double reach_m;  ///< that matters
+  QueryReply reply;
+  std::optional<double> nearest_m;
+  double collision_probability;
+};
+
 SpaceAhead::SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters)
-    : snapshot_(snapshot), parameters_(parameters), R_B_W_(snapshot.T_W_B.rotation.conjugate().toRotationMatrix()) {}
+    : snapshot_(snapshot),
+      parameters_(parameters),
+      with_room_(parameters.query),
+      R_B_W_(snapshot.T_W_B.rotation.conjugate().toRotationMatrix()) {
+  with_room_.margin_m += parameters.collision.vehicle_radius_m;
+}
 
 /// Horizontally the same in every direction, so that a rotation needs W's vertical in B only.
 Mat3 SpaceAhead::covariance_B(double horizontal_std_m, double vertical_std_m) const {
@@ -66,13 +122,34 @@ double SpaceAhead::unseenProbability(const UncertainPoint& x_B, double reach_m) 
   return errorTailBound(x_C.covariance_m2, certified.vouched_m - parameters_.collision.vehicle_radius_m);
 }
 
-SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool stop_early) const {
+SpaceAhead::Place SpaceAhead::placeAt(const Motion& motion_W, double elapsed_s) const {
   const double speed_m_s = motion_W.velocity_m_s.norm();
   const double horizontal_m = parameters_.horizontal.at(speed_m_s, elapsed_s);
   const double vertical_m = parameters_.vertical.at(speed_m_s, elapsed_s);
-  const UncertainPoint x_B{R_B_W_ * (motion_W.position_m - snapshot_.T_W_B.translation_m),
-                           covariance_B(horizontal_m, vertical_m)};
-  const Location location = locate(snapshot_, x_B, parameters_.query);
+  return {{R_B_W_ * (motion_W.position_m - snapshot_.T_W_B.translation_m), covariance_B(horizontal_m, vertical_m)},
+          std::max(horizontal_m, vertical_m)};
+}
+
+/// @pre a view answers
+SpaceAhead::Near SpaceAhead::nearTo(const Place& place, const Location& location) const {
+  const double edge_m2 = largestVarianceBound(snapshot_.views[*location.view_index].edge_covariance_C_m2);
+  const double reach_m = reachThatMatters_m(place.deviation_m * place.deviation_m + edge_m2, parameters_.collision);
+  Near near{
+      reach_m, nearestAt(snapshot_, location, place.x_B, parameters_.query, static_cast<float>(reach_m)), {}, 0.0};
+  if (!near.reply.found().empty()) near.nearest_m = static_cast<double>(near.reply.found().front().distance_m);
+  near.collision_probability = collisionProbability(near.reply.x_C, near.reply.found(), parameters_.collision);
+  return near;
+}
+
+bool SpaceAhead::hasRoom(const Near& near) const {
+  const View& view = *snapshot_.views[*near.reply.view_index].view;
+  const Vec3 half_size_C_m = near.reply.x_C.covariance_m2.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return contains(view.camera().frustum(), near.reply.x_C.mean_m, half_size_C_m.array() + with_room_.margin_m);
+}
+
+SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool stop_early) const {
+  const Place place = placeAt(motion_W, elapsed_s);
+  const Location location = locate(snapshot_, place.x_B, parameters_.query);
 
   SampleEvidence sample;
   sample.elapsed_s = elapsed_s;
@@ -80,25 +157,33 @@ SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool
   sample.status = location.status;
   sample.view_index = location.view_index;
   const double bubble_m = parameters_.collision.vehicle_radius_m + parameters_.bubble_margin_m;
-  sample.in_bubble = x_B.mean_m.norm() <= bubble_m;
+  sample.in_bubble = place.x_B.mean_m.norm() <= bubble_m;
   sample.prior = sample.in_bubble ? 0.0 : parameters_.prior[static_cast<std::size_t>(location.status)];
   const bool certain = sample.prior >= 1.0;
   if (location.view_index && !(certain && stop_early)) {
-    const double deviation_m = std::max(horizontal_m, vertical_m);
-    const double edge_m2 = largestVarianceBound(snapshot_.views[*location.view_index].edge_covariance_C_m2);
-    const double reach_m = reachThatMatters_m(deviation_m * deviation_m + edge_m2, parameters_.collision);
-    const QueryReply reply = nearestAt(snapshot_, location, x_B, parameters_.query, static_cast<float>(reach_m));
-    if (!reply.found().empty()) sample.nearest_m = static_cast<double>(reply.found().front().distance_m);
-    sample.collision_probability = collisionProbability(reply.x_C, reply.found(), parameters_.collision);
+    const Near near = nearTo(place, location);
+    sample.nearest_m = near.nearest_m;
+    sample.collision_probability = near.collision_probability;
+    sample.cramped = parameters_.look_beside && endsSearch(location.status) && !hasRoom(near);
     // Both bound the same error: the larger one holds for what was measured and for what was not.
-    const bool demanded = parameters_.demand_certificate && x_B.mean_m.norm() > parameters_.certificate_beyond_m;
+    const bool demanded = parameters_.demand_certificate && place.x_B.mean_m.norm() > parameters_.certificate_beyond_m;
     if (demanded && !certain && !(stop_early && sample.collision_probability > parameters_.max_risk)) {
-      sample.unseen_probability = unseenProbability(x_B, reach_m);
+      sample.unseen_probability = unseenProbability(place.x_B, near.reach_m);
     }
   }
-  const double reached = std::max(sample.collision_probability, sample.unseen_probability);
-  sample.risk = 1.0 - (1.0 - sample.prior) * (1.0 - reached);
+  sample.risk = riskOf(sample);
   return sample;
+}
+
+void SpaceAhead::lookBeside(const Motion& motion_W, SampleEvidence& sample) const {
+  if (!sample.cramped) return;
+  sample.cramped = false;
+  const Place place = placeAt(motion_W, sample.elapsed_s);
+  const Location location = locate(snapshot_, place.x_B, with_room_);
+  if (!endsSearch(location.status)) return;
+  const Near near = nearTo(place, location);
+  sample.beside = {location.view_index, near.nearest_m, near.collision_probability};
+  sample.risk = riskOf(sample);
 }
 
 std::optional<TrajectoryRisk> SpaceAhead::glance(const Trajectory& trajectory, int samples) const {
@@ -118,35 +203,47 @@ std::optional<TrajectoryRisk> SpaceAhead::glance(const Trajectory& trajectory, i
 
 TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, bool stop_early,
                                   std::vector<SampleEvidence>* evidence, const SampleEvidence* start) const {
-  const double duration_s = trajectory.duration_s();
-  const double radius_m = parameters_.collision.vehicle_radius_m;
   RiskTally tally(parameters_.max_risk);
-  const auto add = [&](const SampleEvidence& sample) {
+  const auto goOn = [&](const SampleEvidence& sample) {
     tally.add(sample);
     if (evidence != nullptr) evidence->push_back(sample);
-    return sample;
+    return !(stop_early && tally.isVetoed());
   };
-  const auto assessAt = [&](const Motion& motion_W, double elapsed_s) {
-    return add(assess(motion_W, elapsed_s, stop_early));
-  };
-  const auto decided = [&] { return stop_early && tally.isVetoed(); };
-
-  const SampleEvidence first = start != nullptr ? add(*start) : assessAt(trajectory.atStart(), 0.0);
+  const SampleEvidence first = start != nullptr ? *start : assess(trajectory.atStart(), 0.0, stop_early);
   SampleEvidence last = first;
-  Vec3 previous_W_m = first.position_W_m;
-  for (int i = 1; i <= samples && !decided(); ++i) {
-    const double begin_s = duration_s * (i - 1) / samples;
-    const double end_s = duration_s * i / samples;
-    const Motion next_W = trajectory.sample(end_s);
-    const int parts = std::max(static_cast<int>(std::ceil((next_W.position_m - previous_W_m).norm() / radius_m)), 1);
-    for (int part = 1; part < parts && !decided(); ++part) {
-      const double elapsed_s = std::lerp(begin_s, end_s, static_cast<double>(part) / parts);
-      last = assessAt(trajectory.sample(elapsed_s), elapsed_s);
-    }
-    if (!decided()) last = assessAt(next_W, end_s);
-    previous_W_m = next_W.position_m;
+  if (goOn(first)) {
+    visitSamples(trajectory, samples, parameters_.collision.vehicle_radius_m,
+                 [&](const Motion& motion_W, double elapsed_s) {
+                   last = assess(motion_W, elapsed_s, stop_early);
+                   return goOn(last);
+                 });
   }
   return tally.result(first, last);
+}
+
+void SpaceAhead::lookBeside(const Trajectory& trajectory, int samples, bool stop_early, TrajectoryRisk& judged,
+                            std::vector<SampleEvidence>* evidence) const {
+  if (judged.cramped == 0) return;
+  std::size_t count = 0;
+  SampleEvidence sample;
+  const auto goOn = [&](const Motion& motion_W, double elapsed_s) {
+    const std::size_t number = count++;
+    if ((judged.cramped & crampedBit(number)) == 0) return true;
+    sample = assess(motion_W, elapsed_s);
+    const double survival = 1.0 - sample.risk;
+    lookBeside(motion_W, sample);
+    if (!sample.beside.view_index) return true;
+    judged.least_distance_m = std::min(judged.least_distance_m, sample.distance_m());
+    if (survival > 0.0) judged.risk = 1.0 - (1.0 - judged.risk) * ((1.0 - sample.risk) / survival);
+    if (!judged.veto && judged.risk > parameters_.max_risk) judged.veto.emplace();
+    if (evidence != nullptr) (*evidence)[number] = sample;
+    return !(stop_early && judged.veto);
+  };
+  const bool goes_on = goOn(trajectory.atStart(), 0.0);
+  if (judged.first.cramped) judged.first = sample;
+  if (goes_on) visitSamples(trajectory, samples, parameters_.collision.vehicle_radius_m, goOn);
+  if (judged.last.cramped && sample.elapsed_s == judged.last.elapsed_s) judged.last = sample;
+  judged.cramped = 0;
 }
 
 }  // namespace nanomap

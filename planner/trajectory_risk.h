@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -45,6 +46,10 @@ struct RiskParameters {
   CollisionParameters collision;
   QueryOptions query;
 
+  /// Where the view that answers holds less than the vehicle around the place, what is near may lie just beside it:
+  /// the newest view with room for the vehicle is asked as well. Without it, the paper's answer alone.
+  bool look_beside = true;
+
   /// Space that no view has seen empty may hold anything: what reaches it counts as a collision. Only then does the
   /// constraint hold for obstacles outside the view that answers, or hidden in it; narrow passages stay closed.
   bool demand_certificate = false;
@@ -52,6 +57,13 @@ struct RiskParameters {
   double certificate_beyond_m = 2.0;
 
   std::array<double, kStatusCount> prior = defaultPriors();
+};
+
+/// What the newest view knows that has room around a place for the vehicle.
+struct BesideEvidence {
+  std::optional<std::uint32_t> view_index;  ///< in the snapshot, 0 the newest; none: there is no such view
+  std::optional<double> nearest_m;          ///< as of SampleEvidence
+  double collision_probability = 0.0;       ///< from the neighbours there
 };
 
 /// What is known about one moment of a trajectory.
@@ -65,10 +77,15 @@ struct SampleEvidence {
   double prior = 0.0;                  ///< from the status; 0 in the bubble
   double collision_probability = 0.0;  ///< from the neighbours
   double unseen_probability = 0.0;     ///< of reaching space that is not certified to be empty, if that is demanded
-  double risk = 0.0;                   ///< of all
+  bool cramped = false;   ///< the view that answers has no room for the vehicle there, and no other was asked
+  BesideEvidence beside;  ///< if another was asked
+  double risk = 0.0;      ///< of all
 
   /// Distance to the nearest measured point; infinite if there is none that matters.
-  [[nodiscard]] double distance_m() const { return nearest_m.value_or(std::numeric_limits<double>::infinity()); }
+  [[nodiscard]] double distance_m() const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    return std::min(nearest_m.value_or(kNone), beside.nearest_m.value_or(kNone));
+  }
 
   /// Free or open, or where the vehicle is anyway: a place to stand still.
   [[nodiscard]] bool seenFree() const { return in_bubble || endsSearch(status); }
@@ -89,7 +106,8 @@ struct TrajectoryRisk {
   double least_distance_m = std::numeric_limits<double>::infinity();  ///< of all samples
   double largest_prior = 0.0;                                         ///< of all samples
   SampleEvidence first;                                               ///< the trajectory's start
-  SampleEvidence last;  ///< the trajectory's end, unless evaluation stopped early
+  SampleEvidence last;        ///< the trajectory's end, unless evaluation stopped early
+  std::uint64_t cramped = 0;  ///< bits of the samples that are; the last stands for all that follow it, too
 };
 
 /// Judges trajectories by what a snapshot knows. Borrows both arguments.
@@ -111,16 +129,33 @@ class SpaceAhead {
                                       std::vector<SampleEvidence>* evidence = nullptr,
                                       const SampleEvidence* start = nullptr) const;
 
+  /// Looks beside the views that answered the cramped samples. Their risks, and that of `judged`, only rise.
+  /// @param judged      assess()'s of the same trajectory, with the same number of samples
+  /// @param stop_early  stop as soon as the risk is above the constraint
+  /// @param evidence    assess()'s, of this trajectory alone
+  void lookBeside(const Trajectory& trajectory, int samples, bool stop_early, TrajectoryRisk& judged,
+                  std::vector<SampleEvidence>* evidence = nullptr) const;
+
+  /// The same for one moment.
+  void lookBeside(const Motion& motion_W, SampleEvidence& sample) const;
+
   /// The veto of the first of a few samples of assess(), far apart, that is above the constraint all by itself; empty
   /// if none is. Soon finds most of what assess() would veto after many. `first` and `last` are that sample.
   [[nodiscard]] std::optional<TrajectoryRisk> glance(const Trajectory& trajectory, int samples) const;
 
  private:
+  struct Place;
+  struct Near;
+
+  [[nodiscard]] Place placeAt(const Motion& motion_W, double elapsed_s) const;
+  [[nodiscard]] Near nearTo(const Place& place, const Location& location) const;
   [[nodiscard]] Mat3 covariance_B(double horizontal_std_m, double vertical_std_m) const;
   [[nodiscard]] double unseenProbability(const UncertainPoint& x_B, double reach_m) const;
+  [[nodiscard]] bool hasRoom(const Near& near) const;
 
   const ChainSnapshot& snapshot_;
   const RiskParameters& parameters_;
+  QueryOptions with_room_;  ///< asks for views with room for the vehicle
   Mat3 R_B_W_;
 };
 

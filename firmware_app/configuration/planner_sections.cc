@@ -185,6 +185,13 @@ Section riskSection() {
             {"half_spaces", CollisionModel::kHalfSpaces}},
            [](auto& c) -> auto& { return c.planner.risk.collision.model; }),
        booleanKey(
+           "look_beside",
+           "Where the view that answers holds less than the vehicle around a place, also ask the newest view that "
+           "holds\n"
+           "all of it: a ledge just above a view's upper edge is not in it. false: the answering view alone, as in the "
+           "paper.",
+           [](auto& c) -> auto& { return c.planner.risk.look_beside; }),
+       booleanKey(
            "demand_certificate",
            "Space around a place that no view has seen empty counts as an obstacle: what is hidden or lies outside "
            "the\n"

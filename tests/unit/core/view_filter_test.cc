@@ -222,7 +222,7 @@ TEST(ViewFilter, LeavesFewViewsThatDoNotAnswer) {
   int others = 0;
   for (int i = 0; i < 5000; ++i) {
     const UncertainPoint x_B = flight.point();
-    ViewFilter::Walk walk(flight.snapshot().filter, flight.snapshot().views.size(), x_B, 0);
+    ViewFilter::Walk walk(flight.snapshot().filter, flight.snapshot().views.size(), x_B, options, 0);
     while (const auto index = walk.next()) {
       const Status status = classify(flight.snapshot().views[*index], x_B, {});
       if (endsSearch(status)) ++answering;
@@ -238,7 +238,7 @@ TEST(ViewFilter, LeavesEverythingThatIsBeyondReason) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto countLeft = [](const ChainSnapshot& snapshot, const UncertainPoint& x_B) {
-    ViewFilter::Walk walk(snapshot.filter, snapshot.views.size(), x_B, 0);
+    ViewFilter::Walk walk(snapshot.filter, snapshot.views.size(), x_B, options, 0);
     std::size_t count = 0;
     while (walk.next()) ++count;
     return count;
@@ -265,7 +265,7 @@ TEST(ViewFilter, OfNoViewsIsEmpty) {
   EXPECT_TRUE(filter.empty());
   filter.assign({});
   EXPECT_TRUE(filter.empty());
-  ViewFilter::Walk walk(filter, 0, {}, 0);
+  ViewFilter::Walk walk(filter, 0, {}, options, 0);
   EXPECT_FALSE(walk.next());
 }
 
