@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/stretches.h"
+
 namespace nanomap {
 namespace {
 
@@ -52,27 +54,6 @@ class RiskTally {
   SampleEvidence heaviest_;
   TrajectoryRisk result_;
 };
-
-/// Calls `visit(motion_W, elapsed_s)` for the samples behind a trajectory's start, in turn, until one says false:
-/// `samples` of equal time, and others between where those are farther apart than `longest_step_m`.
-template <class Visitor>
-void visitSamples(const Trajectory& trajectory, int samples, double longest_step_m, Visitor&& visit) {
-  const double duration_s = trajectory.duration_s();
-  Vec3 previous_W_m = trajectory.atStart().position_m;
-  for (int i = 1; i <= samples; ++i) {
-    const double begin_s = duration_s * (i - 1) / samples;
-    const double end_s = duration_s * i / samples;
-    const Motion next_W = trajectory.sample(end_s);
-    const double apart_m = (next_W.position_m - previous_W_m).norm();
-    const int parts = std::max(static_cast<int>(std::ceil(apart_m / longest_step_m)), 1);
-    for (int part = 1; part < parts; ++part) {
-      const double elapsed_s = std::lerp(begin_s, end_s, static_cast<double>(part) / parts);
-      if (!visit(trajectory.sample(elapsed_s), elapsed_s)) return;
-    }
-    if (!visit(next_W, end_s)) return;
-    previous_W_m = next_W.position_m;
-  }
-}
 
 /// One error of the vehicle's place is behind all ways to touch something: the likeliest of them counts.
 double reached(const SampleEvidence& sample) {
@@ -187,11 +168,10 @@ void SpaceAhead::lookBeside(const Motion& motion_W, SampleEvidence& sample) cons
 }
 
 std::optional<TrajectoryRisk> SpaceAhead::glance(const Trajectory& trajectory, int samples) const {
-  constexpr int kGlances = 5;
-  const int stride = std::max(samples / kGlances, 1);
   // The end first: it is farthest into what may be in the way.
-  for (int i = samples; i > 0; i -= stride) {
-    const double elapsed_s = trajectory.duration_s() * i / samples;
+  const Stretches stretches(trajectory, samples);
+  for (int i = stretches.count(); i > 0; --i) {
+    const double elapsed_s = stretches.end_s(i);
     const SampleEvidence sample = assess(trajectory.sample(elapsed_s), elapsed_s, true);
     RiskTally tally(parameters_.max_risk);
     tally.add(sample);
@@ -212,11 +192,11 @@ TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, boo
   const SampleEvidence first = start != nullptr ? *start : assess(trajectory.atStart(), 0.0, stop_early);
   SampleEvidence last = first;
   if (goOn(first)) {
-    visitSamples(trajectory, samples, parameters_.collision.vehicle_radius_m,
-                 [&](const Motion& motion_W, double elapsed_s) {
-                   last = assess(motion_W, elapsed_s, stop_early);
-                   return goOn(last);
-                 });
+    Stretches(trajectory, samples)
+        .visit(parameters_.collision.vehicle_radius_m, [&](const Motion& motion_W, double elapsed_s) {
+          last = assess(motion_W, elapsed_s, stop_early);
+          return goOn(last);
+        });
   }
   return tally.result(first, last);
 }
@@ -241,7 +221,7 @@ void SpaceAhead::lookBeside(const Trajectory& trajectory, int samples, bool stop
   };
   const bool goes_on = goOn(trajectory.atStart(), 0.0);
   if (judged.first.cramped) judged.first = sample;
-  if (goes_on) visitSamples(trajectory, samples, parameters_.collision.vehicle_radius_m, goOn);
+  if (goes_on) Stretches(trajectory, samples).visit(parameters_.collision.vehicle_radius_m, goOn);
   if (judged.last.cramped && sample.elapsed_s == judged.last.elapsed_s) judged.last = sample;
   judged.cramped = 0;
 }

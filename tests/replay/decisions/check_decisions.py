@@ -17,7 +17,7 @@ from settings import read_settings
 from verify import Verified, verify
 
 # Right decisions to try a planted fault on before it counts as one that the log has no place for.
-TRIES = 100
+TRIES = 240
 
 
 @dataclass

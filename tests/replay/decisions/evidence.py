@@ -1,5 +1,7 @@
 """What the views know about moments of a motion: searched and measured by brute force, without core or planner."""
 
+import itertools
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,8 +9,10 @@ from chain import Step
 from motion import Motion, States
 from nanomap_log import Status
 from planner_settings import PlannerSettings
-from search import CONTAINED, search
+from search import CONTAINED, Found, search
 from tail import NEGLIGIBLE_SIGMAS, tail
+
+STRETCHES = 5
 
 
 @dataclass(frozen=True)
@@ -20,7 +24,7 @@ class Evidence:
     status: np.ndarray
     ambiguous: np.ndarray  # a status on the way was decided within rounding
     in_bubble: np.ndarray
-    nearest: np.ndarray  # m, measured point of the view that answers; infinite if none is near enough to matter
+    nearest: np.ndarray  # m, measured point of the views that are asked; infinite if none is near enough to matter
     risk: np.ndarray
 
     @property
@@ -43,28 +47,47 @@ class Space:
         states = motion.at(elapsed)
         R_W_B, t_W_B = self.T_W_B[:3, :3], self.T_W_B[:3, 3]
         mean_B = (states.position - t_W_B) @ R_W_B
-        found = search(self.steps, mean_B, self._covariance_B(states, elapsed), R_W_B.T @ [0, 0, 1])
+        covariance_B, up_B = self._covariance_B(states, elapsed), R_W_B.T @ [0, 0, 1]
+        found = search(self.steps, mean_B, covariance_B, up_B)
+        nearest, collision = self._near(found, reach_m)
+        if settings.look_beside:
+            rows = np.flatnonzero(self._is_cramped(found))
+            beside = search(self.steps, mean_B[rows], covariance_B[rows], up_B, settings.radius_m)
+            with_room = np.isin(beside.status, CONTAINED)
+            beside_nearest, beside_collision = self._near(beside, reach_m)
+            nearest[rows] = np.where(with_room, np.minimum(nearest[rows], beside_nearest), nearest[rows])
+            collision[rows] = np.where(with_room, np.maximum(collision[rows], beside_collision), collision[rows])
+            found.ambiguous[rows] |= beside.ambiguous
         in_bubble = np.linalg.norm(mean_B, axis=1) <= settings.bubble_m
-        nearest = np.full(len(elapsed), np.inf)
-        for view in set(found.view.tolist()) - {-1}:
-            rows = np.flatnonzero(found.view == view)
-            sigma = np.sqrt(np.linalg.eigvalsh(found.covariance[rows]).max())
-            reach = settings.radius_m + max(reach_m, NEGLIGIBLE_SIGMAS * sigma)
-            nearest[rows] = _nearest(self._points_of(view), found.mean[rows], reach)
-        collision = np.array([tail(covariance, d - settings.radius_m) if np.isfinite(d) else 0.0
-                              for covariance, d in zip(found.covariance, nearest)])
         prior = np.where(in_bubble, 0.0, settings.prior[found.status])
         return Evidence(elapsed, states.position, found.status, found.ambiguous, in_bubble, nearest,
                         1 - (1 - prior) * (1 - collision))
 
     def on_samples(self, motion: Motion, steps: int) -> Evidence:
-        """At the planner's moments: equal steps of time, and finer where neighbours are farther apart than the
-        vehicle's radius (planner/trajectory_risk.h)."""
-        elapsed = np.linspace(0, motion.duration, steps + 1)
-        spacing = np.linalg.norm(np.diff(motion.at(elapsed).position, axis=0), axis=1)
-        parts = np.maximum(np.ceil(spacing / self.settings.radius_m).astype(int), 1)
-        between = [np.linspace(begin, end, n + 1)[1:-1] for begin, end, n in zip(elapsed[:-1], elapsed[1:], parts)]
-        return self.on(motion, np.sort(np.concatenate([elapsed, *between])))
+        """At the planner's moments (planner/stretches.h)."""
+        return self.on(motion, sample_times(motion, steps, self.settings.radius_m))
+
+    def _near(self, found: Found, reach_m: float) -> tuple[np.ndarray, np.ndarray]:
+        """Distance to the nearest point that the answering views have measured, and the chance to touch it."""
+        radius_m = self.settings.radius_m
+        nearest = np.full(len(found.view), np.inf)
+        for view in set(found.view.tolist()) - {-1}:
+            rows = np.flatnonzero(found.view == view)
+            sigma = np.sqrt(np.linalg.eigvalsh(found.covariance[rows]).max())
+            reach = radius_m + max(reach_m, NEGLIGIBLE_SIGMAS * sigma)
+            nearest[rows] = _nearest(self._points_of(view), found.mean[rows], reach)
+        collision = np.array([tail(covariance, d - radius_m) if np.isfinite(d) else 0.0
+                              for covariance, d in zip(found.covariance, nearest)])
+        return nearest, collision
+
+    def _is_cramped(self, found: Found) -> np.ndarray:
+        """Seen, but by a view without room for the vehicle around the place."""
+        cramped = np.zeros(len(found.view), dtype=bool)
+        for view in set(found.view[np.isin(found.status, CONTAINED)].tolist()):
+            rows = np.flatnonzero(np.isin(found.status, CONTAINED) & (found.view == view))
+            inside = self.steps[view].view.inside_by(found.mean[rows], found.covariance[rows], self.settings.radius_m)
+            cramped[rows] = inside < 0
+        return cramped
 
     def _covariance_B(self, states: States, elapsed: np.ndarray) -> np.ndarray:
         speed = np.linalg.norm(states.velocity, axis=1)
@@ -85,6 +108,23 @@ class Space:
         mean_B = self.T_W_B[:3, :3].T @ (position_W - self.T_W_B[:3, 3])
         found = search(self.steps, mean_B[None], np.zeros((1, 3, 3)), self.T_W_B[2, :3])
         return bool(found.status[0] == status and np.linalg.norm(mean_B) > self.settings.bubble_m)
+
+
+def sample_times(motion: Motion, least: int, longest_m: float) -> np.ndarray:
+    """The ends of five stretches of equal time, even steps along each, `least` in all or more, and parts of those that
+    are longer than `longest_m`."""
+    stretches = min(least, STRETCHES)
+    times = [np.zeros(1)]
+    for begin, end in itertools.pairwise(motion.duration * np.arange(stretches + 1) / stretches):
+        at = motion.at(np.array([begin, end]))
+        length = max(np.linalg.norm(at.position[1] - at.position[0]),
+                     np.linalg.norm(at.velocity, axis=1).max() * motion.duration / stretches)
+        steps = max(math.ceil(length / longest_m), math.ceil(least / stretches))
+        ends = np.linspace(begin, end, steps + 1)
+        apart = np.linalg.norm(np.diff(motion.at(ends).position, axis=0), axis=1)
+        for i, parts in enumerate(np.maximum(np.ceil(apart / longest_m).astype(int), 1)):
+            times.append(np.linspace(ends[i], ends[i + 1], parts + 1)[1:])
+    return np.concatenate(times)
 
 
 def _nearest(points: np.ndarray, means: np.ndarray, reach: float) -> np.ndarray:

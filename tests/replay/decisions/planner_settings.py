@@ -36,6 +36,7 @@ class PlannerSettings:
     max_horizon_s: float
     horizon_m: float
     max_risk: float
+    look_beside: bool
     horizontal: Deviation
     vertical: Deviation
     prior: np.ndarray  # by Status
@@ -72,6 +73,7 @@ def read_planner_settings(path: Path, overrides: list[str]) -> PlannerSettings:
         max_horizon_s=horizon["max_s"],
         horizon_m=horizon["distance_m"],
         max_risk=risk["max_risk"],
+        look_beside=risk["look_beside"],
         horizontal=Deviation(*(risk[f"horizontal_{key}"] for key in ("base_m", "per_speed_s", "per_time_m_s"))),
         vertical=Deviation(*(risk[f"vertical_{key}"] for key in ("base_m", "per_speed_s", "per_time_m_s"))),
         prior=np.array([risk[f"prior_{status.name.lower()}"] for status in Status], dtype=float),

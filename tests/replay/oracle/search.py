@@ -20,8 +20,9 @@ class Found:
     ambiguous: np.ndarray  # a status on the way was decided within rounding
 
 
-def search(steps: list[Step], mean_B: np.ndarray, covariance_B: np.ndarray, up_B: np.ndarray) -> Found:
-    """`up_B` points against gravity, in B."""
+def search(steps: list[Step], mean_B: np.ndarray, covariance_B: np.ndarray, up_B: np.ndarray,
+           around_m: float = 0.0) -> Found:
+    """`up_B` points against gravity, in B; `around_m` as of View.classify."""
     count = len(mean_B)
     found = Found(np.full(count, Status.EMPTY), np.full(count, -1), mean_B.copy(), covariance_B.copy(),
                   np.zeros(count, dtype=bool))
@@ -32,7 +33,7 @@ def search(steps: list[Step], mean_B: np.ndarray, covariance_B: np.ndarray, up_B
         mean = mean @ R.T + t
         covariance = step.covariance + R @ covariance @ R.T
         up = R @ up
-        verdicts = step.view.classify(mean, covariance, up)
+        verdicts = step.view.classify(mean, covariance, up, around_m)
         found.ambiguous[pending] |= verdicts.margin < 1
         contained = np.isin(verdicts.status, CONTAINED)
         settled = contained | (i == 0)  # the newest view's own status stands until another view contains the point

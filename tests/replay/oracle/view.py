@@ -59,14 +59,22 @@ class View:
         return np.column_stack([(column - self.camera.cx) / self.camera.fx * z,
                                 (row - self.camera.cy) / self.camera.fy * z, z])
 
-    def classify(self, mean: np.ndarray, covariance: np.ndarray, up: np.ndarray) -> Verdicts:
+    def inside_by(self, mean: np.ndarray, covariance: np.ndarray, around_m: float) -> np.ndarray:
+        """How far inside the frustum each point's box is, with `around_m` more on all sides; negative if it is not."""
+        half = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)) + around_m
+        # The farthest corner of the box along each plane's inward normal, towards the outside.
+        from_sides = mean @ self.camera.side_normals.T - half @ np.abs(self.camera.side_normals).T
+        z, half_z = mean[:, 2], half[:, 2]
+        return np.minimum.reduce([from_sides.min(axis=1), z - half_z - self.camera.near_m,
+                                  self.camera.far_m - z - half_z])
+
+    def classify(self, mean: np.ndarray, covariance: np.ndarray, up: np.ndarray, around_m: float = 0.0) -> Verdicts:
         """Status of each point N(mean[i], covariance[i]) in C; means n x 3 [m], covariances n x 3 x 3 [m^2].
 
-        `up` points against gravity, in C."""
+        `up` points against gravity, in C; a view is to hold `around_m` more than a point's box, on all sides."""
         camera = self.camera
         count = len(mean)
         x, y, z = mean.T
-        half = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
         status = np.full(count, UNDECIDED)
         margin = np.full(count, np.inf)
         resolution = 1e-9
@@ -92,10 +100,7 @@ class View:
         column = np.clip(np.floor(column_f).astype(int), 0, camera.width - 1)
         row = np.clip(np.floor(row_f).astype(int), 0, camera.height - 1)
 
-        # The farthest corner of the box along each plane's inward normal, towards the outside.
-        reach = half @ np.abs(camera.side_normals).T
-        contained = np.minimum.reduce([(sides - reach).min(axis=1), z - half[:, 2] - camera.near_m,
-                                       camera.far_m - z - half[:, 2]])
+        contained = self.inside_by(mean, covariance, around_m)
 
         is_silent = np.zeros(count, dtype=bool)
         is_silent[inside] = ~self.is_return[row, column]

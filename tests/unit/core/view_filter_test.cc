@@ -147,12 +147,13 @@ class Weaving {
 TEST(ViewFilter, NeverChangesAnAnswer) {
   std::array<int, kStatusCount> answers{};
   for (const Cameras cameras : {Cameras::kPinhole, Cameras::kDistorted, Cameras::kMixed}) {
-    for (const int views : {1, 2, 16, 17, 90}) {
+    for (const int views : {1, 2, 16, 17, 90, 300}) {
       Weaving flight(kSeed + static_cast<unsigned>(views), views, cameras);
       std::vector<UncertainPoint> points_B(1500);
       for (UncertainPoint& x_B : points_B) x_B = flight.point();
       for (const QueryOptions& options :
-           {QueryOptions{}, QueryOptions{.occlusion = OcclusionTest::kFootprint, .open_window_px = 9}}) {
+           {QueryOptions{}, QueryOptions{.occlusion = OcclusionTest::kFootprint, .open_window_px = 9},
+            QueryOptions{.margin_m = 0.4}}) {
         std::vector<Location> expected;
         for (const UncertainPoint& x_B : points_B) {
           expected.push_back(walked(flight.snapshot(), x_B, options));
@@ -217,6 +218,7 @@ TEST(ViewFilter, NeverTakesAPixelForItsNeighbour) {
 /// What makes the filter worth having: it leaves the views that answer, holes that only a look around tells from sky,
 /// and hardly any other.
 TEST(ViewFilter, LeavesFewViewsThatDoNotAnswer) {
+  const QueryOptions options;
   Weaving flight(kSeed, 90, Cameras::kPinhole);
   int answering = 0;
   int others = 0;
@@ -234,10 +236,11 @@ TEST(ViewFilter, LeavesFewViewsThatDoNotAnswer) {
 }
 
 TEST(ViewFilter, LeavesEverythingThatIsBeyondReason) {
+  const QueryOptions options;
   Weaving flight(kSeed, 20, Cameras::kMixed);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const auto countLeft = [](const ChainSnapshot& snapshot, const UncertainPoint& x_B) {
+  const auto countLeft = [&options](const ChainSnapshot& snapshot, const UncertainPoint& x_B) {
     ViewFilter::Walk walk(snapshot.filter, snapshot.views.size(), x_B, options, 0);
     std::size_t count = 0;
     while (walk.next()) ++count;
@@ -261,6 +264,7 @@ TEST(ViewFilter, LeavesEverythingThatIsBeyondReason) {
 }
 
 TEST(ViewFilter, OfNoViewsIsEmpty) {
+  const QueryOptions options;
   ViewFilter filter;
   EXPECT_TRUE(filter.empty());
   filter.assign({});

@@ -30,11 +30,31 @@ void expectSameMotion(const Trajectory& a, const Trajectory& b) {
   }
 }
 
+/// The best of what is feasible when everything has been asked of every candidate.
+std::optional<std::uint32_t> bestOf(const std::vector<CandidateExplanation>& candidates) {
+  const CandidateExplanation* best = nullptr;
+  for (const CandidateExplanation& candidate : candidates) {
+    if (!candidate.verdict.veto && (best == nullptr || candidate.objective > best->objective)) best = &candidate;
+  }
+  return best == nullptr ? std::nullopt : std::optional(best->proposal.index);
+}
+
+/// Would it be feasible if nothing lay beside the views that answer?
+bool isVetoedByWhatLiesBeside(const CandidateExplanation& candidate, double max_risk) {
+  if (!candidate.verdict.veto || candidate.verdict.veto->status) return false;
+  double survival = 1.0;
+  for (const SampleEvidence& sample : candidate.evidence.motion) {
+    survival *= (1.0 - sample.prior) * (1.0 - sample.collision_probability);
+  }
+  return 1.0 - survival <= max_risk && !candidate.verdict.vetoedByBrake();
+}
+
 /// Random scenes, motions and goals, with risks from zero to certain, under rules that make ties and mixed risks.
 TEST(EarlyExit, ChangesNoDecision) {
   std::uint32_t evaluated_early = 0;
   std::uint32_t evaluated_all = 0;
   std::uint32_t flying = 0;
+  int beside = 0;
   for (unsigned seed = 0; seed < kScenes; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
@@ -47,6 +67,7 @@ TEST(EarlyExit, ChangesNoDecision) {
     Motion motion{{0.0, 0.0, 2.0}, {1.0 + normal(random), normal(random), 0.2 * normal(random)}, Vec3::Zero()};
     if (seed % 2 == 0) motion.velocity_m_s.setZero();
     flight.setMotion(motion);
+    if (seed % 2 == 1) flight.fly(test::goalAt({20.0, 0.0, 2.0}), 1.0);
     flight.look();
     const Goal goal = test::goalAt({20.0, 5.0 * normal(random), 2.0});
 
@@ -61,6 +82,14 @@ TEST(EarlyExit, ChangesNoDecision) {
     EXPECT_EQ(early.yaw_W_rad, all.yaw_W_rad);
     expectSameMotion(early.trajectory, all.trajectory);
     expectSameMotion(early.brake, all.brake);
+    const Explanation everything = Planner(parameters).explain(flight.snapshot(), flight.state(), goal, flight.now());
+    const std::optional<std::uint32_t> best = bestOf(everything.candidates);
+    if (best) {
+      EXPECT_EQ(early.candidate, *best);
+    }
+    for (const CandidateExplanation& candidate : everything.candidates) {
+      beside += isVetoedByWhatLiesBeside(candidate, parameters.risk.max_risk) ? 1 : 0;
+    }
     evaluated_early += early.evaluated;
     evaluated_all += all.evaluated;
     flying += early.reason == Reason::kFlying ? 1 : 0;
@@ -68,6 +97,7 @@ TEST(EarlyExit, ChangesNoDecision) {
   EXPECT_EQ(evaluated_all, kScenes * kCandidateCount);
   EXPECT_LT(evaluated_early, evaluated_all / 2) << "it saves work";
   EXPECT_GT(flying, kScenes / 4) << "the scenes decide something";
+  EXPECT_GT(beside, 5) << "and what lies beside a view does";
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(Flight, LooksAroundInsteadOfFreezingInFrontOfAWall) {
   (void)flight.fly(goalAt({30.0, 0.0, 2.0}), 5.0);
   double lowest_rad = flight.yaw_W_rad();
   double highest_rad = flight.yaw_W_rad();
-  for (const Time end = flight.now() + std::chrono::seconds(8); flight.now() < end;) {
+  for (const Time end = flight.now() + std::chrono::seconds(16); flight.now() < end;) {
     const Decision decision = flight.step(goalAt({30.0, 0.0, 2.0}));
     EXPECT_TRUE(decision.brake_verified || decision.reason == Reason::kRetreating);
     lowest_rad = std::min(lowest_rad, flight.yaw_W_rad());
