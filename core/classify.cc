@@ -37,7 +37,16 @@ bool occludesBox(const View& view, const Vec3& mean_C, const Vec3& half_size_C) 
 
 /// diag(R * Sigma * R^T) without the rest of it: all that the containment test needs.
 Vec3 rotatedDiagonal(const Mat3& R, const Mat3& covariance_m2) {
-  return (R * covariance_m2).cwiseProduct(R).rowwise().sum();
+  const Mat3& s = covariance_m2;
+  // Written out: a product of matrices goes through memory, and is read back in other parts than it was written in.
+  const auto along = [&](Eigen::Index axis) {
+    const double x = R(axis, 0);
+    const double y = R(axis, 1);
+    const double z = R(axis, 2);
+    return x * (x * s(0, 0) + y * (s(0, 1) + s(1, 0)) + z * (s(0, 2) + s(2, 0))) +
+           y * (y * s(1, 1) + z * (s(1, 2) + s(2, 1))) + z * z * s(2, 2);
+  };
+  return {along(0), along(1), along(2)};
 }
 
 /// `half_size()` is asked for only where the box matters.

@@ -131,8 +131,8 @@ double errorTailBound(const Mat3& covariance_m2, double radius_m) {
 
 double reachThatMatters_m(double largest_variance_m2, const CollisionParameters& parameters) {
   if (parameters.model == CollisionModel::kGaussianVolume) return std::numeric_limits<double>::infinity();
-  // P(|e| > 8 sigma) is 8.2e-14 for an error that is the same in all directions, and less for any other.
-  constexpr double kSigmas = 8.0;
+  // P(|e| > 6.7 sigma) is 9.8e-10 for an error that is the same in all directions, and less for any other.
+  constexpr double kSigmas = 6.7;
   return parameters.vehicle_radius_m + kSigmas * std::sqrt(largest_variance_m2);
 }
 

@@ -64,7 +64,7 @@ struct CollisionParameters {
 [[nodiscard]] double collisionProbability(const UncertainPoint& x_C, std::span<const Neighbour> neighbours,
                                           const CollisionParameters& parameters);
 
-/// How far from the mean a measured point can be and still matter: farther ones add less than 1e-13 to
+/// How far from the mean a measured point can be and still matter: farther ones add less than 1e-9 to
 /// collisionProbability, which may count as 0. Infinite for kGaussianVolume, which bounds nothing.
 /// @param largest_variance_m2  of the error in any direction, or more
 [[nodiscard]] double reachThatMatters_m(double largest_variance_m2, const CollisionParameters& parameters);

@@ -79,6 +79,7 @@ void check(const RiskParameters& risk) {
   check("risk.horizontal", risk.horizontal);
   check("risk.vertical", risk.vertical);
   requireNotNegative("risk.bubble_margin_m", risk.bubble_margin_m);
+  requireNotNegative("risk.beside_beyond_m", risk.beside_beyond_m);
   requireNotNegative("risk.certificate_beyond_m", risk.certificate_beyond_m);
   requirePositive("risk.collision.vehicle_radius_m", risk.collision.vehicle_radius_m);
   requireNotNegative("risk.collision.pull_to_vehicle_m", risk.collision.pull_to_vehicle_m);

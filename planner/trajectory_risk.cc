@@ -14,6 +14,14 @@ constexpr std::uint64_t crampedBit(std::size_t sample) {
   return std::uint64_t{1} << std::min(sample, kLast);
 }
 
+/// Of a veto, by the sample that weighs most.
+VetoCause causeOf(const SampleEvidence& heaviest, double max_risk) {
+  const double touched = std::max(heaviest.collision_probability, heaviest.beside.collision_probability);
+  if (heaviest.prior >= std::max(touched, heaviest.unseen_probability)) return {heaviest.status};
+  if (touched <= max_risk && heaviest.unseen_probability > touched) return {Status::kPartial};
+  return {};
+}
+
 /// The running risk of a trajectory, and what weighed most when it went over the constraint.
 class RiskTally {
  public:
@@ -28,13 +36,7 @@ class RiskTally {
     if (result_.veto) return;
     if (sample.risk > heaviest_.risk) heaviest_ = sample;
     if (1.0 - survival_ <= max_risk_) return;
-    result_.veto.emplace();
-    if (heaviest_.prior >= std::max(heaviest_.collision_probability, heaviest_.unseen_probability)) {
-      result_.veto->status = heaviest_.status;
-    } else if (heaviest_.collision_probability <= max_risk_ &&
-               heaviest_.unseen_probability > heaviest_.collision_probability) {
-      result_.veto->status = Status::kPartial;
-    }
+    result_.veto = causeOf(heaviest_, max_risk_);
   }
 
   [[nodiscard]] bool isVetoed() const { return result_.veto.has_value(); }
@@ -136,7 +138,8 @@ SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool
   sample.elapsed_s = elapsed_s;
   sample.position_W_m = motion_W.position_m;
   sample.status = location.status;
-  sample.view_index = location.view_index;
+  // Whole, the optional is stored in halves and read back at once, which waits for both.
+  if (location.view_index) sample.view_index.emplace(*location.view_index);
   const double bubble_m = parameters_.collision.vehicle_radius_m + parameters_.bubble_margin_m;
   sample.in_bubble = place.x_B.mean_m.norm() <= bubble_m;
   sample.prior = sample.in_bubble ? 0.0 : parameters_.prior[static_cast<std::size_t>(location.status)];
@@ -161,9 +164,12 @@ void SpaceAhead::lookBeside(const Motion& motion_W, SampleEvidence& sample) cons
   sample.cramped = false;
   const Place place = placeAt(motion_W, sample.elapsed_s);
   const Location location = locate(snapshot_, place.x_B, with_room_);
-  if (!endsSearch(location.status)) return;
-  const Near near = nearTo(place, location);
-  sample.beside = {location.view_index, near.nearest_m, near.collision_probability};
+  if (endsSearch(location.status)) {
+    const Near near = nearTo(place, location);
+    sample.beside = {location.view_index, near.nearest_m, near.collision_probability};
+  } else if (place.x_B.mean_m.norm() > parameters_.beside_beyond_m) {
+    sample.unseen_probability = 1.0;
+  }
   sample.risk = riskOf(sample);
 }
 
@@ -212,10 +218,9 @@ void SpaceAhead::lookBeside(const Trajectory& trajectory, int samples, bool stop
     sample = assess(motion_W, elapsed_s);
     const double survival = 1.0 - sample.risk;
     lookBeside(motion_W, sample);
-    if (!sample.beside.view_index) return true;
     judged.least_distance_m = std::min(judged.least_distance_m, sample.distance_m());
     if (survival > 0.0) judged.risk = 1.0 - (1.0 - judged.risk) * ((1.0 - sample.risk) / survival);
-    if (!judged.veto && judged.risk > parameters_.max_risk) judged.veto.emplace();
+    if (!judged.veto && judged.risk > parameters_.max_risk) judged.veto = causeOf(sample, parameters_.max_risk);
     if (evidence != nullptr) (*evidence)[number] = sample;
     return !(stop_early && judged.veto);
   };

@@ -49,6 +49,9 @@ struct RiskParameters {
   /// Where the view that answers holds less than the vehicle around the place, what is near may lie just beside it:
   /// the newest view with room for the vehicle is asked as well. Without it, the paper's answer alone.
   bool look_beside = true;
+  /// Farther than this from the vehicle, a place that no view has room around may have anything beside it. Nearer, most
+  /// places are such while it stands.
+  double beside_beyond_m = 3.0;
 
   /// Space that no view has seen empty may hold anything: what reaches it counts as a collision. Only then does the
   /// constraint hold for obstacles outside the view that answers, or hidden in it; narrow passages stay closed.
@@ -76,7 +79,7 @@ struct SampleEvidence {
   bool in_bubble = false;              ///< judged by its neighbours alone
   double prior = 0.0;                  ///< from the status; 0 in the bubble
   double collision_probability = 0.0;  ///< from the neighbours
-  double unseen_probability = 0.0;     ///< of reaching space that is not certified to be empty, if that is demanded
+  double unseen_probability = 0.0;     ///< of reaching what no view has seen, as far as that must be known
   bool cramped = false;   ///< the view that answers has no room for the vehicle there, and no other was asked
   BesideEvidence beside;  ///< if another was asked
   double risk = 0.0;      ///< of all

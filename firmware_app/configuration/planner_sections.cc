@@ -191,6 +191,13 @@ Section riskSection() {
            "all of it: a ledge just above a view's upper edge is not in it. false: the answering view alone, as in the "
            "paper.",
            [](auto& c) -> auto& { return c.planner.risk.look_beside; }),
+       numberKey(
+           "beside_beyond_m",
+           "Farther from the vehicle than this, a place that no view has room around counts as taken: nobody knows "
+           "what "
+           "is\n"
+           "beside it.",
+           {0.0, 100.0}, [](auto& c) -> auto& { return c.planner.risk.beside_beyond_m; }),
        booleanKey(
            "demand_certificate",
            "Space around a place that no view has seen empty counts as an obstacle: what is hidden or lies outside "

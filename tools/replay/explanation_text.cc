@@ -86,8 +86,11 @@ void writeSamples(Text& text, std::string_view title, const std::vector<SampleEv
     text.line("  {:>7.3f}  {}  {:<13}{:>10}{:>10}{:>12}{:>10.2g}{:>10.2g}{:>10.2g}{}", sample.elapsed_s,
               vectorText(sample.position_W_m), toString(sample.status), back, sequence, nearest, sample.prior,
               sample.collision_probability, sample.risk, sample.in_bubble ? "  in the bubble" : "");
-    if (!sample.beside.view_index) continue;
     const BesideEvidence& beside = sample.beside;
+    if (!beside.view_index && sample.unseen_probability > 0.0) {
+      text.line("  {:>7}  {:>24}  {:<13}{:>10}", "", "", "  beside", "unseen");
+    }
+    if (!beside.view_index) continue;
     text.line("  {:>7}  {:>24}  {:<13}{:>10}{:>10}{:>12}{:>10}{:>10.2g}", "", "", "  beside", *beside.view_index,
               snapshot.views[*beside.view_index].view->sequence(),
               beside.nearest_m ? fmt::format("{:.2f}", *beside.nearest_m) : "-", "", beside.collision_probability);

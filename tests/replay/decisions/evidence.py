@@ -56,7 +56,8 @@ class Space:
             with_room = np.isin(beside.status, CONTAINED)
             beside_nearest, beside_collision = self._near(beside, reach_m)
             nearest[rows] = np.where(with_room, np.minimum(nearest[rows], beside_nearest), nearest[rows])
-            collision[rows] = np.where(with_room, np.maximum(collision[rows], beside_collision), collision[rows])
+            unseen = np.linalg.norm(mean_B[rows], axis=1) > settings.beside_beyond_m
+            collision[rows] = np.maximum(collision[rows], np.where(with_room, beside_collision, unseen))
             found.ambiguous[rows] |= beside.ambiguous
         in_bubble = np.linalg.norm(mean_B, axis=1) <= settings.bubble_m
         prior = np.where(in_bubble, 0.0, settings.prior[found.status])

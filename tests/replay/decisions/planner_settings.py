@@ -37,6 +37,7 @@ class PlannerSettings:
     horizon_m: float
     max_risk: float
     look_beside: bool
+    beside_beyond_m: float
     horizontal: Deviation
     vertical: Deviation
     prior: np.ndarray  # by Status
@@ -74,6 +75,7 @@ def read_planner_settings(path: Path, overrides: list[str]) -> PlannerSettings:
         horizon_m=horizon["distance_m"],
         max_risk=risk["max_risk"],
         look_beside=risk["look_beside"],
+        beside_beyond_m=risk["beside_beyond_m"],
         horizontal=Deviation(*(risk[f"horizontal_{key}"] for key in ("base_m", "per_speed_s", "per_time_m_s"))),
         vertical=Deviation(*(risk[f"vertical_{key}"] for key in ("base_m", "per_speed_s", "per_time_m_s"))),
         prior=np.array([risk[f"prior_{status.name.lower()}"] for status in Status], dtype=float),

@@ -148,6 +148,31 @@ TEST(SpaceAhead, WhatLiesJustBesideTheViewThatAnswersIsSeenInAnother) {
   EXPECT_FALSE(seen.space().assess(along, 0.0).cramped);
 }
 
+TEST(SpaceAhead, FarAwayAPlaceThatNoViewHasRoomAroundIsRefused) {
+  SeenTwice seen;
+  const double edge_rad = -0.7 - 0.785 + 0.06;  // just inside the second look's right edge
+  const auto at = [&](double distance_m) {
+    return Motion{{distance_m * std::cos(edge_rad), distance_m * std::sin(edge_rad), 2.0}, Vec3::Zero(), Vec3::Zero()};
+  };
+  for (const double distance_m : {2.8, 3.2}) {
+    SampleEvidence sample = seen.space().assess(at(distance_m), 0.0);
+    ASSERT_TRUE(endsSearch(sample.status));
+    ASSERT_TRUE(sample.cramped);
+    seen.space().lookBeside(at(distance_m), sample);
+    EXPECT_FALSE(sample.beside.view_index);
+    EXPECT_EQ(sample.unseen_probability, distance_m > 3.0 ? 1.0 : 0.0);
+    EXPECT_EQ(sample.risk > 0.5, distance_m > 3.0);
+  }
+  Trajectory way(Time{}, Motion{at(2.5).position_m, at(1.0).position_m - Vec3(0.0, 0.0, 2.0), Vec3::Zero()});
+  way.append(1.0, Vec3::Zero());
+  TrajectoryRisk risk = seen.space().assess(way, 20, false);
+  EXPECT_FALSE(risk.veto);
+  seen.space().lookBeside(way, 20, false, risk);
+  ASSERT_TRUE(risk.veto);
+  EXPECT_EQ(risk.veto->status, Status::kPartial);
+  EXPECT_EQ(risk.risk, 1.0);
+}
+
 TEST(SpaceAhead, AWayIsVetoedByWhatLiesBesideIt) {
   const SeenTwice seen;
   Trajectory way(Time{}, Motion{{1.8, -0.6, 2.0}, {0.8, 0.3, 0.0}, Vec3::Zero()});
