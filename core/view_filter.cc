@@ -151,7 +151,7 @@ ViewFilter::Walk::Walk(const ViewFilter& filter, std::size_t view_count, const U
                        const QueryOptions& options, std::uint32_t first)
     : options_(options), view_count_(static_cast<std::uint32_t>(view_count)), first_(first) {
   assert(filter.empty() || filter.blocks_.size() == vectorsFor(view_count));
-  if (filter.empty() || !isWithinReason(x_B) || !(options.margin_m <= kLargest)) return;
+  if (filter.empty() || !isWithinReason(x_B) || !(options.margin_m >= 0.0 && options.margin_m <= kLargest)) return;
   groups_ = filter.groups_;
   blocks_ = filter.blocks_;
   const Mat3& s = x_B.covariance_m2;

@@ -18,11 +18,12 @@ namespace nanomap {
 /// vector unit, or on there being a filter at all.
 ///
 /// Why it is certain. With u = 2^-24, m = |mean_B| + max |t_C_B|, T the largest tangent of a side plane and h the
-/// largest half size of a box with its margin, each of a few dozen roundings: a coordinate is off by at most 8 u m, a
-/// distance from a side plane (times the length of its normal) by 11 u m (1 + T), a half size's share of it by 4 u h (1
-/// + T), the distance that makes a cell by 27 u m (1 + T); slack_m = 64 u (m + h) (1 + T) is above the sum of any of
-/// these that meet. A variance is off by at most 14 u times the sum of the variances that make it; slack_m2 is 32 u
-/// times that.
+/// largest half size of a box with its margin, all of them rounded once themselves: a coordinate is off by at most
+/// 8 u m, a distance from a side plane (times the length of its normal) by 11 u m (1 + T), a half size's share of it by
+/// 5 u h (1 + T), the distance that makes a cell by 27 u m (1 + T), the bound on a block's side planes by
+/// 23 u m (1 + T), and of its near and far planes, where it matters, by 40 u m; slack_m = 64 u (m + h) (1 + T) is above
+/// the sum of any of these that meet. A variance is off by at most 14 u times the sum of the variances that make it;
+/// slack_m2 is 32 u times that.
 ///
 /// Threads: any number of readers. Allocates only when it holds more views than ever before.
 class ViewFilter {

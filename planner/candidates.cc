@@ -49,7 +49,7 @@ Proposal Candidates::propose(std::uint32_t index) const {
     const Vec3 velocity_W = motion(index).sample(parameters_.brake_after_s).velocity_m_s;
     reward = objective_.motionReward(standstill_W, velocity_W.norm());
   }
-  return {index, reward, objective_.bound(reward, parameters_.risk.max_risk)};
+  return {index, reward};
 }
 
 TrajectoryRisk Candidates::assessBrake(std::uint32_t index) const {
@@ -92,10 +92,10 @@ void Candidates::lookBeside(std::uint32_t index, bool stop_early, Verdict& verdi
                     evidence != nullptr ? &evidence->motion : nullptr);
   verdict.veto = verdict.motion.veto;
   if (!verdict.stop) return;
-  if (index == kBrake) {
-    verdict.stop = verdict.motion;
-  } else if (verdict.veto) {
+  if (verdict.veto) {
     verdict.stop.reset();
+  } else if (index == kBrake) {
+    verdict.stop = verdict.motion;
   } else {
     space_.lookBeside(brake(index), parameters_.brake_samples, stop_early, *verdict.stop,
                       evidence != nullptr ? &evidence->brake : nullptr);

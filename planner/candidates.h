@@ -16,8 +16,7 @@ namespace nanomap {
 /// A candidate before any query.
 struct Proposal {
   std::uint32_t index = 0;
-  double reward = 0.0;  ///< the objective without risk
-  double bound = 0.0;   ///< of the objective, for any risk that the constraint allows
+  double reward = 0.0;  ///< the objective without risk, which bounds it from above
 };
 
 /// What queries said about a candidate.

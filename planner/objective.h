@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/goal.h"
 #include "core/trajectory.h"
 
@@ -37,12 +39,10 @@ class Objective {
     return (goal_.position_W_m - standstill_W_m).norm() <= parameters_.goal_tolerance_m;
   }
 
-  /// With the risk weighed in. Never above `bound(reward, r)` for a risk of up to r, in floating point too.
+  /// With the risk weighed in: never above the reward, and less the greater the risk, in floating point too, though a
+  /// collision may seem better than what is worth less (a goal 80 m above).
   [[nodiscard]] double value(double reward, double risk) const {
-    return reward + (parameters_.collision_reward - reward) * risk;
-  }
-  [[nodiscard]] double bound(double reward, double largest_risk) const {
-    return value(reward, parameters_.collision_reward > reward ? largest_risk : 0.0);
+    return reward + std::min(parameters_.collision_reward - reward, 0.0) * risk;
   }
 
  private:

@@ -95,13 +95,13 @@ std::optional<Choice> choose(const Task& task, bool early_exit, Decision& decisi
     storage[index] = task.candidates.propose(index);
   }
   std::sort(proposals.begin(), proposals.end(), [](const Proposal& a, const Proposal& b) {
-    return a.bound != b.bound ? a.bound > b.bound : a.index < b.index;
+    return a.reward != b.reward ? a.reward > b.reward : a.index < b.index;
   });
 
   decision.candidates = static_cast<std::uint32_t>(proposals.size());
   std::optional<Choice> best;
   for (const Proposal& proposal : proposals) {
-    if (early_exit && best && proposal.bound < best->objective) break;
+    if (early_exit && best && proposal.reward < best->objective) break;
     Choice choice{proposal.index, 0.0, task.candidates.judge(proposal.index, early_exit)};
     ++decision.evaluated;
     const auto isBest = [&] {

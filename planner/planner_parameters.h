@@ -48,7 +48,7 @@ struct PlannerParameters {
   StopCheck stop_check = StopCheck::kVerified;
   double brake_after_s =
       0.25;                ///< a plan in force is younger: above the plan period plus the age at which one is stale
-  int samples = 20;        ///< steps of equal time over a primitive's horizon
+  int samples = 20;        ///< steps over a primitive's horizon, at least (planner/stretches.h)
   int brake_samples = 10;  ///< over its brake
   bool early_exit = true;  ///< skip what cannot change the choice; without it the choice is the same
   Duration max_state_age = std::chrono::milliseconds(200);

@@ -20,7 +20,7 @@ struct Retreat {
 /// - ends where standing is half that risk or less, or leads away from everything measured: at no sample nearer to it
 ///   than the vehicle is, at the end farther by the objective's least gain, and
 /// - is known: leads through nothing whose prior alone is above the constraint, and ends in space seen as free or in
-///   the bubble.
+///   the bubble. What no view has room around is a risk like others here: no stop is refused for it.
 /// What is compared is risk, because distances to one thing in two views differ by the drift between them, and the risk
 /// knows how far each is to be trusted. One that ends in space seen as free goes before one that does not: a step back
 /// into what was not seen is the last resort, and no longer than it takes until standing still is within the constraint

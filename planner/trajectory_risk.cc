@@ -14,11 +14,11 @@ constexpr std::uint64_t crampedBit(std::size_t sample) {
   return std::uint64_t{1} << std::min(sample, kLast);
 }
 
-/// Of a veto, by the sample that weighs most.
-VetoCause causeOf(const SampleEvidence& heaviest, double max_risk) {
-  const double touched = std::max(heaviest.collision_probability, heaviest.beside.collision_probability);
-  if (heaviest.prior >= std::max(touched, heaviest.unseen_probability)) return {heaviest.status};
-  if (touched <= max_risk && heaviest.unseen_probability > touched) return {Status::kPartial};
+/// Of a veto that is due to `sample`: to the one that weighs most, or to the one that was too much.
+VetoCause causeOf(const SampleEvidence& sample, double max_risk) {
+  const double touched = std::max(sample.collision_probability, sample.beside.collision_probability);
+  if (sample.prior >= std::max(touched, sample.unseen_probability)) return {sample.status};
+  if (touched <= max_risk && sample.unseen_probability > touched) return {Status::kPartial};
   return {};
 }
 
@@ -162,12 +162,13 @@ SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool
 void SpaceAhead::lookBeside(const Motion& motion_W, SampleEvidence& sample) const {
   if (!sample.cramped) return;
   sample.cramped = false;
+  sample.beside.asked = true;
   const Place place = placeAt(motion_W, sample.elapsed_s);
   const Location location = locate(snapshot_, place.x_B, with_room_);
   if (endsSearch(location.status)) {
     const Near near = nearTo(place, location);
-    sample.beside = {location.view_index, near.nearest_m, near.collision_probability};
-  } else if (place.x_B.mean_m.norm() > parameters_.beside_beyond_m) {
+    sample.beside = {true, location.view_index, near.nearest_m, near.collision_probability};
+  } else if (!sample.in_bubble && place.x_B.mean_m.norm() > parameters_.beside_beyond_m) {
     sample.unseen_probability = 1.0;
   }
   sample.risk = riskOf(sample);

@@ -64,6 +64,7 @@ struct RiskParameters {
 
 /// What the newest view knows that has room around a place for the vehicle.
 struct BesideEvidence {
+  bool asked = false;
   std::optional<std::uint32_t> view_index;  ///< in the snapshot, 0 the newest; none: there is no such view
   std::optional<double> nearest_m;          ///< as of SampleEvidence
   double collision_probability = 0.0;       ///< from the neighbours there
@@ -80,9 +81,9 @@ struct SampleEvidence {
   double prior = 0.0;                  ///< from the status; 0 in the bubble
   double collision_probability = 0.0;  ///< from the neighbours
   double unseen_probability = 0.0;     ///< of reaching what no view has seen, as far as that must be known
-  bool cramped = false;   ///< the view that answers has no room for the vehicle there, and no other was asked
-  BesideEvidence beside;  ///< if another was asked
-  double risk = 0.0;      ///< of all
+  bool cramped = false;  ///< the view that answers has no room for the vehicle there, and no other was asked
+  BesideEvidence beside;
+  double risk = 0.0;  ///< of all
 
   /// Distance to the nearest measured point; infinite if there is none that matters.
   [[nodiscard]] double distance_m() const {
@@ -97,8 +98,8 @@ struct SampleEvidence {
   [[nodiscard]] bool leadsOut() const { return !in_bubble || endsSearch(status); }
 };
 
-/// What weighed most against something: a status, or measured points where there is none. Space that is not certified
-/// counts as kPartial: only part of what the place may be was seen.
+/// What weighed most against something: a status, or measured points where there is none. Space that is not certified,
+/// or that no view has room around, counts as kPartial: only part of what the place may be was seen.
 struct VetoCause {
   std::optional<Status> status;
 };
@@ -110,7 +111,7 @@ struct TrajectoryRisk {
   double largest_prior = 0.0;                                         ///< of all samples
   SampleEvidence first;                                               ///< the trajectory's start
   SampleEvidence last;        ///< the trajectory's end, unless evaluation stopped early
-  std::uint64_t cramped = 0;  ///< bits of the samples that are; the last stands for all that follow it, too
+  std::uint64_t cramped = 0;  ///< bits of the samples that are; the last stands for all that follow its own, too
 };
 
 /// Judges trajectories by what a snapshot knows. Borrows both arguments.
@@ -123,8 +124,9 @@ class SpaceAhead {
   /// @param stop_early  look for no neighbours where the status is a certain veto
   [[nodiscard]] SampleEvidence assess(const Motion& motion_W, double elapsed_s, bool stop_early = false) const;
 
-  /// A whole trajectory, in `samples` steps of equal time, and finer where those are farther apart than the vehicle's
-  /// radius: so that neither a thin obstacle nor a hole as wide as the vehicle falls between two samples.
+  /// A whole trajectory, in five stretches of equal time and even steps along each: `samples` at least, and as many as
+  /// leave none longer than the vehicle's radius (planner/stretches.h). So neither a thin obstacle nor a hole as wide
+  /// as the vehicle falls between two samples.
   /// @param stop_early  stop as soon as the risk is above the constraint
   /// @param evidence    if given, every sample is appended, in the order of evaluation (allocates)
   /// @param start       assess() of the trajectory's start, if that is known: many may start alike

@@ -30,7 +30,9 @@ Section planningSection() {
            "plan is stale, and not above horizon.push_s and horizon.min_s.",
            {0.0, 10.0, true}, [](auto& c) -> auto& { return c.planner.brake_after_s; }),
        integerKey(
-           "samples", "Steps of equal time that a motion is judged in; more are added where obstacles are near.",
+           "samples",
+           "Steps that a motion is judged in, at least: even ones along each fifth of its time, none longer than the\n"
+           "vehicle's radius.",
            {1, 1000}, [](auto& c) -> auto& { return c.planner.samples; }),
        integerKey(
            "brake_samples", "The same for a brake.", {1, 1000},
@@ -186,17 +188,14 @@ Section riskSection() {
            [](auto& c) -> auto& { return c.planner.risk.collision.model; }),
        booleanKey(
            "look_beside",
-           "Where the view that answers holds less than the vehicle around a place, also ask the newest view that "
-           "holds\n"
-           "all of it: a ledge just above a view's upper edge is not in it. false: the answering view alone, as in the "
-           "paper.",
+           "Where the view that answers holds less than the vehicle around a place, also ask the newest view that\n"
+           "holds all of it: a ledge just above a view's upper edge is not in it. false: the answering view alone, as\n"
+           "in the paper.",
            [](auto& c) -> auto& { return c.planner.risk.look_beside; }),
        numberKey(
            "beside_beyond_m",
-           "Farther from the vehicle than this, a place that no view has room around counts as taken: nobody knows "
-           "what "
-           "is\n"
-           "beside it.",
+           "With look_beside: farther from the vehicle than this, a place that is in view, but that no view has room\n"
+           "around, counts as taken. Nobody knows what is beside it.",
            {0.0, 100.0}, [](auto& c) -> auto& { return c.planner.risk.beside_beyond_m; }),
        booleanKey(
            "demand_certificate",

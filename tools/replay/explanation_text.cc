@@ -87,7 +87,7 @@ void writeSamples(Text& text, std::string_view title, const std::vector<SampleEv
               vectorText(sample.position_W_m), toString(sample.status), back, sequence, nearest, sample.prior,
               sample.collision_probability, sample.risk, sample.in_bubble ? "  in the bubble" : "");
     const BesideEvidence& beside = sample.beside;
-    if (!beside.view_index && sample.unseen_probability > 0.0) {
+    if (beside.asked && !beside.view_index) {
       text.line("  {:>7}  {:>24}  {:<13}{:>10}", "", "", "  beside", "unseen");
     }
     if (!beside.view_index) continue;

@@ -2,7 +2,7 @@
 
 Strict: the standstill lies in the bubble or in space seen as free, and every one of the planner's samples is within the
 chance constraint, priors included. Between the samples nothing is promised about what is seen, but the vehicle must
-not touch what was measured: on a grid finer than the samples the nearest measured point of the answering view stays
+not touch what was measured: on a grid finer than the samples the nearest measured point of the views asked stays
 farther away than the vehicle's radius.
 """
 
@@ -26,6 +26,7 @@ GRID_M = 0.05  # an eighth of the vehicle's radius
 LOOSEST = 2.3
 UNDERSTATED = 1e-3
 RISK_ROUNDING = 1e-8
+LEFT_OUT = 1e-9  # of a sample, by points beyond the reach that matters
 
 
 class Fault(StrEnum):
@@ -134,7 +135,7 @@ def _verify_risk(name: str, motion: Motion, steps: int, told: float, space: Spac
     result.ambiguous |= bool(samples.ambiguous[unseen].any())
     if exact > settings.max_risk * (1 + UNDERSTATED) or told > settings.max_risk:
         result.faults.append((Fault.OVERSTEPS, f"{name}: exact {exact:.3e}, told {told:.3e}"))
-    if told < exact * (1 - UNDERSTATED) - RISK_ROUNDING:
+    if told < exact * (1 - UNDERSTATED) - RISK_ROUNDING - LEFT_OUT * len(samples.elapsed):
         result.faults.append((Fault.UNDERSTATES, f"{name}: exact {exact:.3e}, told {told:.3e}"))
     if told > exact * LOOSEST * (1 + UNDERSTATED) + RISK_ROUNDING:
         result.faults.append((Fault.OVERSTATES, f"{name}: exact {exact:.3e}, told {told:.3e}"))

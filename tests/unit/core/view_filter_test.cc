@@ -215,6 +215,44 @@ TEST(ViewFilter, NeverTakesAPixelForItsNeighbour) {
   EXPECT_GT(answered, 2000);
 }
 
+/// Views that are all alike leave a block's bound no slack but for rounding: points on the planes of their frustum, and
+/// a few roundings to either side.
+TEST(ViewFilter, PassesNoBlockOverThatHoldsThePoint) {
+  const auto camera = test::model(test::smallCamera());
+  const Frustum& f = camera->frustum();
+  const ViewPtr view = test::viewOf(test::flatImage(*camera, 60000), camera);
+  int answered = 0;
+  for (const double far_away_m : {0.0, 1.0, 1e3, 1e5}) {
+    for (const std::size_t views : {16U, 17U}) {
+      ChainSnapshot snapshot;
+      snapshot.views.resize(views + 1);
+      for (SnapshotView& each : snapshot.views) {
+        each.view = view;
+        each.R_C_B = Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+        each.t_C_B_m = far_away_m * Vec3(1.0, -0.7, 0.3);
+      }
+      snapshot.views[0].R_C_B = -snapshot.views[0].R_C_B;  // sees none of them
+      snapshot.filter.assign(snapshot.views);
+      for (const double z_m : {f.near_m, 2.0, f.far_m}) {
+        for (const double tan_x : {f.tan_left, 0.0, f.tan_right}) {
+          for (const double tan_y : {f.tan_top, 0.0, f.tan_bottom}) {
+            for (int step = -4; step <= 4; ++step) {
+              const double nudge = 1.0 + step * 0x1p-24;
+              const Vec3 p_C(tan_x * z_m * nudge, tan_y * z_m * nudge, z_m * nudge);
+              const SnapshotView& seen = snapshot.views.back();
+              const UncertainPoint x_B{seen.R_C_B.transpose() * (p_C - seen.t_C_B_m), Mat3::Zero()};
+              const Location expected = walked(snapshot, x_B, {});
+              if (expected.view_index.value_or(0) > 0) ++answered;
+              onEveryTarget([&] { ASSERT_EQ(locate(snapshot, x_B, {}), expected) << p_C.transpose(); });
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(answered, 500);
+}
+
 /// What makes the filter worth having: it leaves the views that answer, holes that only a look around tells from sky,
 /// and hardly any other.
 TEST(ViewFilter, LeavesFewViewsThatDoNotAnswer) {

@@ -69,7 +69,8 @@ TEST(EarlyExit, ChangesNoDecision) {
     flight.setMotion(motion);
     if (seed % 2 == 1) flight.fly(test::goalAt({20.0, 0.0, 2.0}), 1.0);
     flight.look();
-    const Goal goal = test::goalAt({20.0, 5.0 * normal(random), 2.0});
+    const double height_m = seed % 6 == 1 ? 90.0 : 2.0;  // worth less than a collision
+    const Goal goal = test::goalAt({20.0, 5.0 * normal(random), height_m});
 
     const Decision early = Planner(parameters).plan(flight.snapshot(), flight.state(), goal, flight.now());
     parameters.early_exit = false;
@@ -86,6 +87,8 @@ TEST(EarlyExit, ChangesNoDecision) {
     const std::optional<std::uint32_t> best = bestOf(everything.candidates);
     if (best) {
       EXPECT_EQ(early.candidate, *best);
+    } else {
+      EXPECT_TRUE(early.reason == Reason::kRetreating || early.reason == Reason::kNothingVerified);
     }
     for (const CandidateExplanation& candidate : everything.candidates) {
       beside += isVetoedByWhatLiesBeside(candidate, parameters.risk.max_risk) ? 1 : 0;

@@ -86,6 +86,7 @@ TEST(Flight, LooksAroundInsteadOfFreezingInFrontOfAWall) {
   (void)flight.fly(goalAt({30.0, 0.0, 2.0}), 5.0);
   double lowest_rad = flight.yaw_W_rad();
   double highest_rad = flight.yaw_W_rad();
+  // A sweep takes 7 s; steps to the side, where there seems to be a way, turn it back.
   for (const Time end = flight.now() + std::chrono::seconds(16); flight.now() < end;) {
     const Decision decision = flight.step(goalAt({30.0, 0.0, 2.0}));
     EXPECT_TRUE(decision.brake_verified || decision.reason == Reason::kRetreating);

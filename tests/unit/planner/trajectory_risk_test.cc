@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/brake.h"
+#include "planner/candidates.h"
 #include "tests/unit/planner/flight.h"
 
 namespace nanomap {
@@ -138,7 +139,7 @@ TEST(SpaceAhead, WhatLiesJustBesideTheViewThatAnswersIsSeenInAnother) {
   EXPECT_NEAR(*sample.beside.nearest_m, 0.45, 0.02);
   EXPECT_NEAR(sample.distance_m(), 0.45, 0.02);
   EXPECT_GT(sample.risk, 0.01);
-  EXPECT_EQ(sample.risk, sample.beside.collision_probability);
+  EXPECT_NEAR(sample.risk, sample.beside.collision_probability, 1e-12);
 
   const Motion aside{{2.5, -1.5, 2.0}, Vec3::Zero(), Vec3::Zero()};
   EXPECT_FALSE(seen.space().assess(aside, 0.0).cramped) << "there is room";
@@ -197,10 +198,59 @@ TEST(SpaceAhead, AWayIsVetoedByWhatLiesBesideIt) {
   EXPECT_NEAR(risk.risk, 1.0 - survival, 1e-12);
   EXPECT_EQ(evidence.back().beside.view_index, 1U);
 
+  SeenTwice uncertain;
+  uncertain.parameters.prior[static_cast<std::size_t>(Status::kFree)] = 0.02;
+  evidence.clear();
+  TrajectoryRisk mixed = uncertain.space().assess(way, 20, false, &evidence);
+  uncertain.space().lookBeside(way, 20, false, mixed, &evidence);
+  survival = 1.0;
+  for (const SampleEvidence& sample : evidence) survival *= 1.0 - sample.risk;
+  EXPECT_NEAR(mixed.risk, 1.0 - survival, 1e-12) << "what a sample was worth before is not counted twice";
+
+  // More samples than a mask has bits: the last bit stands for all that follow.
+  evidence.clear();
+  TrajectoryRisk fine = seen.space().assess(way, 200, false, &evidence);
+  ASSERT_GT(evidence.size(), 200U);
+  seen.space().lookBeside(way, 200, false, fine, &evidence);
+  EXPECT_TRUE(fine.veto);
+  survival = 1.0;
+  for (const SampleEvidence& sample : evidence) {
+    EXPECT_FALSE(sample.cramped);
+    survival *= 1.0 - sample.risk;
+  }
+  EXPECT_NEAR(fine.risk, 1.0 - survival, 1e-12);
+
   TrajectoryRisk hasty = answered;
   seen.space().lookBeside(way, 20, true, hasty);
   EXPECT_TRUE(hasty.veto);
   EXPECT_LE(hasty.risk, risk.risk);
+}
+
+/// The brake is its own motion, and judged once: if that is vetoed there is no stop left to be blamed.
+TEST(SpaceAhead, ACandidateIsVetoedByWhatLiesBesideItsMotionOrItsBrake) {
+  SeenTwice seen;
+  PlannerParameters parameters = test::flightParameters();
+  const PrimitiveLibrary library;
+  const auto candidatesAt = [&](double y_m, double velocity_y_m_s) {
+    const Motion start{{2.2, y_m, 2.0}, {0.6, velocity_y_m_s, 0.0}, Vec3::Zero()};
+    return Candidates(parameters, library, seen.snapshot, test::goalAt({20.0, 0.0, 2.0}), seen.snapshot.stamp, start,
+                      -0.7);
+  };
+  const Candidates towards_wall = candidatesAt(-0.1, 0.9);
+  Verdict brake = towards_wall.judge(kBrake, false);
+  ASSERT_FALSE(brake.veto);
+  ASSERT_TRUE(brake.stop);
+  towards_wall.lookBeside(kBrake, false, brake);
+  ASSERT_TRUE(brake.veto);
+  EXPECT_FALSE(brake.stop);
+  EXPECT_FALSE(brake.vetoedByBrake());
+
+  const Candidates along_wall = candidatesAt(-0.6, -0.4);
+  Verdict clear = along_wall.judge(kBrake, false);
+  along_wall.lookBeside(kBrake, false, clear);
+  EXPECT_FALSE(clear.veto);
+  ASSERT_TRUE(clear.stop);
+  EXPECT_EQ(clear.stop->risk, clear.motion.risk);
 }
 
 TEST(SpaceAhead, DeviationGrowsWithSpeedAndTime) {
