@@ -3,22 +3,23 @@
 #include <bit>
 
 #include "core/depth_tiles.h"
-#include "core/simd.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/view_scan.cc"
+#include "core/simd.h"
+// clang-format off
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// clang-format on
+#include "core/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nanomap::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Float = HWY_CAPPED(float, kViewLanes);
-using Int = hn::RebindToSigned<Float>;
-using FloatVec = hn::Vec<Float>;
-using IntVec = hn::Vec<Int>;
+static_assert(kViewLanes == kGroupBoxes, "views fill the vectors that boxes do");
+using Float = FloatTag;
+using Int = IndexTag;
+using IntVec = IndexVec;
 using Mask = hn::Mask<Float>;
 
 /// Relative to the width or height of an image [cells]: above all rounding that does not come from the mean's position.
@@ -31,12 +32,6 @@ constexpr int kTileShift = 3;
 static_assert(1 << kTileShift == DepthTiles::kEdge_px);
 constexpr auto kFirstColumn = static_cast<std::int32_t>(DepthTiles::Cover::kFirstColumn);
 constexpr auto kFirstRow = static_cast<std::int32_t>(DepthTiles::Cover::kFirstRow);
-
-HWY_INLINE std::uint32_t bitsOf(Mask mask) {
-  HWY_ALIGN std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(Float(), mask, bytes);
-  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
-}
 
 /// DepthTiles::Cover of many views.
 struct CoverLanes {

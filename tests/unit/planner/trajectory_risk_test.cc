@@ -227,7 +227,7 @@ TEST(SpaceAhead, AWayIsVetoedByWhatLiesBesideIt) {
 }
 
 /// The brake is its own motion, and judged once: if that is vetoed there is no stop left to be blamed.
-TEST(SpaceAhead, ACandidateIsVetoedByWhatLiesBesideItsMotionOrItsBrake) {
+TEST(SpaceAhead, TheBrakeIsVetoedByWhatLiesBesideItAndBlamesNoStop) {
   SeenTwice seen;
   PlannerParameters parameters = test::flightParameters();
   const PrimitiveLibrary library;
