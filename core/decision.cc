@@ -8,6 +8,8 @@ std::string_view toString(Reason reason) {
       return "flying";
     case Reason::kGoingRound:
       return "going round what is in the way";
+    case Reason::kKeeping:
+      return "no better way is safe: keeping to the verified motion and its brake";
     case Reason::kAtGoal:
       return "at the goal";
     case Reason::kSlowing:

@@ -15,6 +15,7 @@ namespace nanomap {
 enum class Reason : std::uint8_t {
   kFlying,           ///< towards the goal
   kGoingRound,       ///< round what is in the way, at first not towards the goal
+  kKeeping,          ///< nothing new is better than what is left of the motion in force and its brake: that is flown on
   kAtGoal,           ///< stops at the goal
   kSlowing,          ///< faster than the goal's top speed
   kTurning,          ///< stands, and turns towards a goal that is out of view
@@ -29,7 +30,7 @@ enum class Reason : std::uint8_t {
   kStateOtherTime,   ///< too old, or ahead of the time planned for
   kStateOtherEpoch,  ///< of another world than the snapshot
 };
-inline constexpr std::size_t kReasonCount = 15;
+inline constexpr std::size_t kReasonCount = 16;
 
 /// In a pilot's words.
 [[nodiscard]] std::string_view toString(Reason reason);

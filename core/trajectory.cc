@@ -47,4 +47,33 @@ Trajectory Trajectory::firstPart(double duration_s) const {
   return part;
 }
 
+Trajectory Trajectory::rest(Time time) const {
+  assert(time >= start_);
+  Trajectory rest(time, sample(time));
+  double passed_s = toSeconds(time - start_);
+  for (const Piece& piece : pieces()) {
+    rest.append(std::max(piece.duration_s - passed_s, 0.0), piece.jerk_W_m_s3);
+    passed_s = std::max(passed_s - piece.duration_s, 0.0);
+  }
+  return rest;
+}
+
+TrajectorySampler::TrajectorySampler(const Trajectory& trajectory)
+    : pieces_(trajectory.pieces()), duration_s_(trajectory.duration_s()) {
+  begins_[0] = trajectory.atStart();
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    begins_[i + 1] = advance(begins_[i], pieces_[i].jerk_W_m_s3, pieces_[i].duration_s);
+  }
+}
+
+Motion TrajectorySampler::at(double elapsed_s) const {
+  double left_s = std::max(elapsed_s, 0.0);
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Trajectory::Piece& piece = pieces_[i];
+    if (left_s <= piece.duration_s) return advance(begins_[i], piece.jerk_W_m_s3, left_s);
+    left_s -= piece.duration_s;
+  }
+  return begins_[pieces_.size()];
+}
+
 }  // namespace nanomap

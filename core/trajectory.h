@@ -50,11 +50,30 @@ class Trajectory {
   /// The same motion, ended `duration_s` after the start if it lasts longer.
   [[nodiscard]] Trajectory firstPart(double duration_s) const;
 
+  /// The same motion from `time` on. @pre time >= start()
+  [[nodiscard]] Trajectory rest(Time time) const;
+
  private:
   Time start_{};
   Motion at_start_W_;
   std::size_t piece_count_ = 0;
   std::array<Piece, kMaxPieces> pieces_{};
+};
+
+/// A trajectory to be sampled often: keeps where each of its pieces begins. Borrows the trajectory.
+class TrajectorySampler {
+ public:
+  explicit TrajectorySampler(const Trajectory& trajectory);
+
+  [[nodiscard]] double duration_s() const { return duration_s_; }
+
+  /// The trajectory's sample(), to the last bit.
+  [[nodiscard]] Motion at(double elapsed_s) const;
+
+ private:
+  std::span<const Trajectory::Piece> pieces_;
+  double duration_s_;
+  std::array<Motion, Trajectory::kMaxPieces + 1> begins_;  ///< of the pieces, and what follows the last
 };
 
 }  // namespace nanomap

@@ -7,7 +7,7 @@ namespace nanomap {
 
 Candidates::Candidates(const PlannerParameters& parameters, const PrimitiveLibrary& library,
                        const ChainSnapshot& snapshot, const Goal& goal, Time start, const Motion& at_start_W,
-                       double yaw_W_rad)
+                       double yaw_W_rad, const Trajectory* in_force)
     : parameters_(parameters),
       library_(library),
       space_(snapshot, parameters.risk),
@@ -15,6 +15,7 @@ Candidates::Candidates(const PlannerParameters& parameters, const PrimitiveLibra
       objective_(parameters.objective, goal, at_start_W.position_m),
       start_(start),
       at_start_W_(at_start_W),
+      in_force_(in_force),
       start_evidence_(space_.assess(at_start_W, 0.0)),
       R_W_L_(levelAxes(yaw_W_rad)) {
   space_.lookBeside(at_start_W, start_evidence_);
@@ -23,7 +24,7 @@ Candidates::Candidates(const PlannerParameters& parameters, const PrimitiveLibra
 Vec3 Candidates::acceleration_L(std::uint32_t index) const {
   const Vec3& velocity_W = at_start_W_.velocity_m_s;
   if (index < kLibrarySize) return library_.acceleration_L(index, parameters_.limits, velocity_W.norm());
-  if (index == kBrake) return Vec3::Zero();
+  if (isStop(index)) return Vec3::Zero();
   const Vec3 to_goal_L = R_W_L_.transpose() * (goal_.position_W_m - at_start_W_.position_m);
   return goalDirectedAcceleration(to_goal_L, R_W_L_.transpose() * velocity_W, goal_.top_speed_m_s,
                                   parameters_.goal_directed, parameters_.limits);
@@ -31,22 +32,25 @@ Vec3 Candidates::acceleration_L(std::uint32_t index) const {
 
 Trajectory Candidates::motion(std::uint32_t index) const {
   if (index == kBrake) return brakeAfter(Trajectory(start_, at_start_W_), 0.0, parameters_.limits);
+  if (index == kBrakeInForce) return *in_force_;
   const PrimitiveTimes times = parameters_.horizon.at(at_start_W_.velocity_m_s.norm());
   return primitive(start_, at_start_W_, R_W_L_ * acceleration_L(index), times, parameters_.limits);
 }
 
-Trajectory Candidates::brake(std::uint32_t index) const {
-  if (index == kBrake) return motion(index);
-  return brakeAfter(motion(index), parameters_.brake_after_s, parameters_.limits);
+Trajectory Candidates::brake(std::uint32_t index) const { return brakeOf(index, motion(index)); }
+
+Trajectory Candidates::brakeOf(std::uint32_t index, const Trajectory& motion) const {
+  return isStop(index) ? motion : brakeAfter(motion, parameters_.brake_after_s, parameters_.limits);
 }
 
 Proposal Candidates::propose(std::uint32_t index) const {
-  const Vec3 standstill_W = brake(index).atEnd().position_m;
+  const Trajectory trajectory = motion(index);
+  const Vec3 standstill_W = brakeOf(index, trajectory).atEnd().position_m;
   double reward = 0.0;
   if (index == kBrake) {
     reward = objective_.brakeReward(standstill_W);
   } else {
-    const Vec3 velocity_W = motion(index).sample(parameters_.brake_after_s).velocity_m_s;
+    const Vec3 velocity_W = trajectory.sample(parameters_.brake_after_s).velocity_m_s;
     reward = objective_.motionReward(standstill_W, velocity_W.norm());
   }
   return {index, reward};
@@ -72,14 +76,14 @@ Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* eviden
   verdict.motion = space_.assess(trajectory, parameters_.samples, stop_early,
                                  evidence != nullptr ? &evidence->motion : nullptr, &start_evidence_);
   verdict.veto = verdict.motion.veto;
-  if (!verdict.veto && index != kBrake && !verdict.motion.last.leadsOut()) {
+  if (!verdict.veto && !isStop(index) && !verdict.motion.last.leadsOut()) {
     verdict.veto = VetoCause{verdict.motion.last.status};
   }
   if (verdict.veto || parameters_.stop_check == StopCheck::kPaper) return verdict;
 
-  verdict.stop = index == kBrake ? verdict.motion
-                                 : space_.assess(brake(index), parameters_.brake_samples, stop_early,
-                                                 evidence != nullptr ? &evidence->brake : nullptr, &start_evidence_);
+  verdict.stop = isStop(index) ? verdict.motion
+                               : space_.assess(brakeOf(index, trajectory), parameters_.brake_samples, stop_early,
+                                               evidence != nullptr ? &evidence->brake : nullptr, &start_evidence_);
   verdict.veto = verdict.stop->veto;
   const SampleEvidence& end = verdict.stop->last;
   if (!verdict.veto && !end.seenFree()) verdict.veto = VetoCause{end.status};
@@ -88,16 +92,17 @@ Verdict Candidates::judge(std::uint32_t index, bool stop_early, Evidence* eviden
 
 void Candidates::lookBeside(std::uint32_t index, bool stop_early, Verdict& verdict, Evidence* evidence) const {
   if (verdict.veto) return;
-  space_.lookBeside(motion(index), parameters_.samples, stop_early, verdict.motion,
+  const Trajectory trajectory = motion(index);
+  space_.lookBeside(trajectory, parameters_.samples, stop_early, verdict.motion,
                     evidence != nullptr ? &evidence->motion : nullptr);
   verdict.veto = verdict.motion.veto;
   if (!verdict.stop) return;
   if (verdict.veto) {
     verdict.stop.reset();
-  } else if (index == kBrake) {
+  } else if (isStop(index)) {
     verdict.stop = verdict.motion;
   } else {
-    space_.lookBeside(brake(index), parameters_.brake_samples, stop_early, *verdict.stop,
+    space_.lookBeside(brakeOf(index, trajectory), parameters_.brake_samples, stop_early, *verdict.stop,
                       evidence != nullptr ? &evidence->brake : nullptr);
     verdict.veto = verdict.stop->veto;
   }

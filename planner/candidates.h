@@ -35,21 +35,26 @@ struct Evidence {
 };
 
 /// The candidates of one plan: all that start with one motion and lead to one goal. They are laid out in frame L (B's
-/// origin and yaw, z up) and handed out in W. Borrows the first three arguments of its constructor.
+/// origin and yaw, z up) and handed out in W. Borrows the first three arguments of its constructor, and the last.
 /// Allocates: no, except inside FLANN and for evidence. Threads: any number of readers.
 class Candidates {
  public:
+  /// @param in_force  what is flown already, from `start` and `at_start_W` on; null: nothing is
   Candidates(const PlannerParameters& parameters, const PrimitiveLibrary& library, const ChainSnapshot& snapshot,
-             const Goal& goal, Time start, const Motion& at_start_W, double yaw_W_rad);
+             const Goal& goal, Time start, const Motion& at_start_W, double yaw_W_rad,
+             const Trajectory* in_force = nullptr);
+
+  /// Indices are below it.
+  [[nodiscard]] std::uint32_t count() const { return in_force_ != nullptr ? kBrakeInForce + 1 : kCandidateCount; }
 
   [[nodiscard]] const Objective& objective() const { return objective_; }
 
-  /// That the candidate ramps to [m/s^2, L]; the brake's is zero, which it ends with.
+  /// That the candidate ramps to [m/s^2, L]; a brake's is zero, which it ends with.
   [[nodiscard]] Vec3 acceleration_L(std::uint32_t index) const;
 
   [[nodiscard]] Trajectory motion(std::uint32_t index) const;
 
-  /// The brake that is verified with the candidate; the brake candidate's is itself.
+  /// The brake that is verified with the candidate; a brake's is itself.
   [[nodiscard]] Trajectory brake(std::uint32_t index) const;
 
   [[nodiscard]] Proposal propose(std::uint32_t index) const;
@@ -67,6 +72,8 @@ class Candidates {
   void lookBeside(std::uint32_t index, bool stop_early, Verdict& verdict, Evidence* evidence = nullptr) const;
 
  private:
+  [[nodiscard]] Trajectory brakeOf(std::uint32_t index, const Trajectory& motion) const;
+
   const PlannerParameters& parameters_;
   const PrimitiveLibrary& library_;
   SpaceAhead space_;
@@ -74,6 +81,7 @@ class Candidates {
   Objective objective_;
   Time start_;
   Motion at_start_W_;
+  const Trajectory* in_force_;
   SampleEvidence start_evidence_;  ///< shared: all candidates, and all brakes, begin there
   Mat3 R_W_L_;
 };

@@ -78,7 +78,8 @@ Goal Detour::steer(const VehicleState& start, const Goal& goal) {
 void Detour::watchProgress(Time now, Duration elapsed, double distance_m) {
   const bool nearer = distance_m < least_distance_m_ - kProgress_m;
   const bool retreats = last_reason_ == Reason::kRetreating;
-  const bool wants_on = last_reason_ && (isHeldUp(*last_reason_) || *last_reason_ == Reason::kFlying || retreats);
+  const bool flies = last_reason_ == Reason::kFlying || last_reason_ == Reason::kKeeping;
+  const bool wants_on = flies || retreats || (last_reason_ && isHeldUp(*last_reason_));
   if (nearer || !wants_on) last_progress_ = now;
   if (!nearer && retreats) last_progress_ += elapsed;
   if (!nearer) return;

@@ -20,6 +20,7 @@ struct Inputs {
   const VehicleState& state;
   const std::optional<Goal>& goal;
   Time now;
+  const Trajectory* in_force;
 };
 
 Consumed consumed(const Inputs& inputs) {
@@ -63,7 +64,7 @@ Task taskOf(const PlannerParameters& parameters, const PrimitiveLibrary& library
   goal.position_W_m = at_start_W.position_m;
   if (!hold) goal = *inputs.goal;
   return {at_start_W, yaw_W_rad, hold, goal,
-          Candidates(parameters, library, inputs.snapshot, goal, inputs.now, at_start_W, yaw_W_rad)};
+          Candidates(parameters, library, inputs.snapshot, goal, inputs.now, at_start_W, yaw_W_rad, inputs.in_force)};
 }
 
 struct Choice {
@@ -89,9 +90,9 @@ void count(const Verdict& verdict, Decision& decision) {
 
 /// The best of the feasible candidates. Counts into `decision`.
 std::optional<Choice> choose(const Task& task, bool early_exit, Decision& decision) {
-  std::array<Proposal, kCandidateCount> storage;
-  const std::span proposals = std::span(storage).subspan(task.firstCandidate());
-  for (std::uint32_t index = task.firstCandidate(); index < kCandidateCount; ++index) {
+  std::array<Proposal, kBrakeInForce + 1> storage;
+  const std::span proposals = std::span(storage).first(task.candidates.count()).subspan(task.firstCandidate());
+  for (std::uint32_t index = task.firstCandidate(); index < task.candidates.count(); ++index) {
     storage[index] = task.candidates.propose(index);
   }
   std::sort(proposals.begin(), proposals.end(), [](const Proposal& a, const Proposal& b) {
@@ -122,6 +123,7 @@ std::optional<Choice> choose(const Task& task, bool early_exit, Decision& decisi
 /// Why a vehicle stops that could go for its goal, before any look at where the camera points.
 Reason stopReason(const Task& task, const Decision& decision) {
   if (task.candidates.objective().isAtGoal(decision.brake.atEnd().position_m)) return Reason::kAtGoal;
+  if (decision.candidate == kBrakeInForce) return Reason::kKeeping;
   if (task.at_start_W.velocity_m_s.norm() > task.goal.top_speed_m_s) return Reason::kSlowing;
   return Reason::kBlocked;
 }
@@ -139,10 +141,11 @@ double wantedHeading(const PlannerParameters& parameters, const Inputs& inputs, 
 
   const Vec3 velocity_W = decision.trajectory.sample(parameters.brake_after_s).velocity_m_s;
   const bool moves = velocity_W.head<2>().norm() >= parameters.heading.min_speed_m_s;
-  const bool brakes = decision.candidate == kBrake;
+  const bool brakes = isStop(*decision.candidate);
 
   switch (decision.reason) {
     case Reason::kFlying:
+    case Reason::kKeeping:
       return moves ? headingTo(velocity_W) : goal_heading_rad;
     case Reason::kBlocked:
     case Reason::kRetreating:
@@ -166,8 +169,8 @@ double wantedHeading(const PlannerParameters& parameters, const Inputs& inputs, 
 Planner::Planner(const PlannerParameters& parameters) : parameters_(parameters) { check(parameters_); }
 
 Decision Planner::plan(const ChainSnapshot& snapshot, const VehicleState& state, const std::optional<Goal>& goal,
-                       Time now) const {
-  const Inputs inputs{snapshot, state, goal, now};
+                       Time now, const Trajectory* in_force) const {
+  const Inputs inputs{snapshot, state, goal, now, in_force};
   Decision decision;
   decision.stamp = now;
   decision.consumed = consumed(inputs);
@@ -196,7 +199,7 @@ Decision Planner::plan(const ChainSnapshot& snapshot, const VehicleState& state,
   } else if (task.hold) {
     decision.reason = *task.hold;
   } else {
-    decision.reason = choice->index == kBrake ? stopReason(task, decision) : Reason::kFlying;
+    decision.reason = isStop(choice->index) ? stopReason(task, decision) : Reason::kFlying;
   }
 
   const double heading_W_rad = wantedHeading(parameters_, inputs, task, decision);
@@ -207,13 +210,13 @@ Decision Planner::plan(const ChainSnapshot& snapshot, const VehicleState& state,
 }
 
 Explanation Planner::explain(const ChainSnapshot& snapshot, const VehicleState& state, const std::optional<Goal>& goal,
-                             Time now) const {
+                             Time now, const Trajectory* in_force) const {
   Explanation explanation;
-  explanation.decision = plan(snapshot, state, goal, now);
+  explanation.decision = plan(snapshot, state, goal, now, in_force);
   if (!explanation.decision.candidate) return explanation;
 
-  const Task task = taskOf(parameters_, library_, {snapshot, state, goal, now});
-  for (std::uint32_t index = task.firstCandidate(); index < kCandidateCount; ++index) {
+  const Task task = taskOf(parameters_, library_, {snapshot, state, goal, now, in_force});
+  for (std::uint32_t index = task.firstCandidate(); index < task.candidates.count(); ++index) {
     CandidateExplanation candidate;
     candidate.proposal = task.candidates.propose(index);
     candidate.acceleration_L_m_s2 = task.candidates.acceleration_L(index);

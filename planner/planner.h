@@ -21,14 +21,17 @@ class Planner {
   explicit Planner(const PlannerParameters& parameters);
 
   /// What to fly from `now` on. Whatever is wrong with state or goal, the decision says so.
-  /// @param now  at or shortly after the state's stamp: the state is carried on to it at constant acceleration
+  /// @param now       at or shortly after the state's stamp: the state is carried on to it at constant acceleration
+  /// @param in_force  what is flown already, from `now` on, if the state is on it: where nothing better is verified,
+  ///                  the stop it leads to is still the one that was
   /// Allocates: no, except inside FLANN.
   [[nodiscard]] Decision plan(const ChainSnapshot& snapshot, const VehicleState& state, const std::optional<Goal>& goal,
-                              Time now) const;
+                              Time now, const Trajectory* in_force = nullptr) const;
 
   /// The same decision, and what every candidate was judged by. Evaluates everything, and allocates: not for flight.
   [[nodiscard]] Explanation explain(const ChainSnapshot& snapshot, const VehicleState& state,
-                                    const std::optional<Goal>& goal, Time now) const;
+                                    const std::optional<Goal>& goal, Time now,
+                                    const Trajectory* in_force = nullptr) const;
 
   [[nodiscard]] const PlannerParameters& parameters() const { return parameters_; }
 

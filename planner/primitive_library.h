@@ -8,7 +8,8 @@
 
 namespace nanomap {
 
-/// Candidates of every plan, by stable index: the library, then two that are always there.
+/// Candidates of every plan, by stable index: the library, then two that are always there; and one more while
+/// something is in force.
 inline constexpr std::uint32_t kVerticalLevels = 5;
 inline constexpr std::uint32_t kRings = 3;
 inline constexpr std::uint32_t kDirections = 8;
@@ -16,7 +17,11 @@ inline constexpr std::uint32_t kLibrarySize = kVerticalLevels * (1 + kRings * kD
 inline constexpr std::uint32_t kGoalDirected = kLibrarySize;
 inline constexpr std::uint32_t kBrake = kLibrarySize + 1;
 inline constexpr std::uint32_t kCandidateCount = kLibrarySize + 2;
+inline constexpr std::uint32_t kBrakeInForce = kCandidateCount;
 static_assert(kLibrarySize == 125);
+
+/// Whether the candidate is its own brake.
+[[nodiscard]] constexpr bool isStop(std::uint32_t index) { return index >= kBrake; }
 
 /// The library's accelerations, in frame L. Index order: vertical level from down to up, in it the centre and then the
 /// rings from the innermost outwards, in a ring the directions from straight ahead to the left.

@@ -22,7 +22,9 @@ void nameDetour(Decision& decision, const Detour& detour) {
 Decision RecedingHorizon::step(const ChainSnapshot& snapshot, const VehicleState& measured,
                                const std::optional<Goal>& goal, Time now) {
   const VehicleState start = startState(measured, now);
-  Decision decision = planner_.plan(snapshot, start, steered(arrival_, detour_, start, goal), now);
+  const std::optional<Trajectory> rest = restInForce(measured, now);
+  Decision decision =
+      planner_.plan(snapshot, start, steered(arrival_, detour_, start, goal), now, rest ? &*rest : nullptr);
   arrival_.note(decision);
   detour_.note(decision.reason);
   nameDetour(decision, detour_);
@@ -41,25 +43,36 @@ Explanation RecedingHorizon::explain(const ChainSnapshot& snapshot, const Vehicl
   const VehicleState start = startState(measured, now);
   Arrival arrival = arrival_;
   Detour detour = detour_;
-  Explanation explanation = planner_.explain(snapshot, start, steered(arrival, detour, start, goal), now);
+  const std::optional<Trajectory> rest = restInForce(measured, now);
+  Explanation explanation =
+      planner_.explain(snapshot, start, steered(arrival, detour, start, goal), now, rest ? &*rest : nullptr);
   nameDetour(explanation.decision, detour);
   return explanation;
 }
 
-VehicleState RecedingHorizon::startState(const VehicleState& measured, Time now) const {
+bool RecedingHorizon::follows(const VehicleState& measured, Time now) const {
   const PlannerParameters& parameters = planner_.parameters();
   const Duration age = now - measured.stamp;
   const bool timely = age >= Duration::zero() && age <= parameters.max_state_age;
-  if (!timely || !in_force_ || in_force_->consumed.epoch != measured.epoch) return measured;
+  if (!timely || !in_force_ || in_force_->consumed.epoch != measured.epoch) return false;
 
   // NaN in either is outside of every tolerance.
   const Motion expected = *motionAt(measured.stamp);
   const double position_error_m = (measured.T_W_B.translation_m - expected.position_m).norm();
   const double velocity_error_m_s = (measured.velocity_W_m_s - expected.velocity_m_s).norm();
-  const bool follows = position_error_m <= parameters.tracking.max_position_error_m &&
-                       velocity_error_m_s <= parameters.tracking.max_velocity_error_m_s;
-  if (!follows) return measured;
+  return position_error_m <= parameters.tracking.max_position_error_m &&
+         velocity_error_m_s <= parameters.tracking.max_velocity_error_m_s;
+}
 
+std::optional<Trajectory> RecedingHorizon::restInForce(const VehicleState& measured, Time now) const {
+  if (!follows(measured, now) || now < in_force_->stamp) return std::nullopt;
+  const Trajectory rest = in_force_->brake.rest(now);
+  // At a standstill there is nothing left to follow.
+  return rest.pieces().empty() ? std::nullopt : std::optional(rest);
+}
+
+VehicleState RecedingHorizon::startState(const VehicleState& measured, Time now) const {
+  if (!follows(measured, now)) return measured;
   const Motion motion = *motionAt(now);
   VehicleState state = measured;
   state.stamp = now;

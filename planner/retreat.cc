@@ -36,20 +36,31 @@ std::tuple<bool, double, double, double> worth(const TrajectoryRisk& brake) {
   return {endsSearch(brake.last.status), -brake.risk, -brake.last.risk, brake.last.distance_m()};
 }
 
+/// Stopping at once, or as what is in force does.
+Retreat bestStop(const Candidates& candidates, double max_risk) {
+  Retreat best{kBrake, candidates.assessBrake(kBrake)};
+  for (std::uint32_t index = kBrakeInForce; index < candidates.count(); ++index) {
+    const TrajectoryRisk brake = candidates.assessBrake(index);
+    const bool best_is_known = isKnown(best.brake, max_risk);
+    if (isKnown(brake, max_risk) && (!best_is_known || brake.risk < best.brake.risk)) best = Retreat{index, brake};
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<Retreat> chooseRetreat(const Candidates& candidates, const PlannerParameters& parameters) {
   const double max_risk = parameters.risk.max_risk;
-  const TrajectoryRisk stop = candidates.assessBrake(kBrake);
+  const Retreat stop = bestStop(candidates, max_risk);
   std::optional<Retreat> best;
   for (std::uint32_t index = 0; index < kBrake; ++index) {
     const Motion at_braking = candidates.brake(index).sample(parameters.brake_after_s);
     if (at_braking.velocity_m_s.norm() > kStep_m_s) continue;
     const TrajectoryRisk brake = candidates.assessBrake(index);
-    if (!isKnown(brake, max_risk) || !isSafer(brake, stop, parameters.objective.least_gain_m)) continue;
+    if (!isKnown(brake, max_risk) || !isSafer(brake, stop.brake, parameters.objective.least_gain_m)) continue;
     if (!best || worth(brake) > worth(best->brake)) best = Retreat{index, brake};
   }
-  if (!best && isKnown(stop, max_risk)) best = Retreat{kBrake, stop};
+  if (!best && isKnown(stop.brake, max_risk)) best = stop;
   return best;
 }
 

@@ -179,7 +179,7 @@ std::optional<TrajectoryRisk> SpaceAhead::glance(const Trajectory& trajectory, i
   const Stretches stretches(trajectory, samples);
   for (int i = stretches.count(); i > 0; --i) {
     const double elapsed_s = stretches.end_s(i);
-    const SampleEvidence sample = assess(trajectory.sample(elapsed_s), elapsed_s, true);
+    const SampleEvidence sample = assess(stretches.at(elapsed_s), elapsed_s, true);
     RiskTally tally(parameters_.max_risk);
     tally.add(sample);
     const TrajectoryRisk alone = tally.result(sample, sample);

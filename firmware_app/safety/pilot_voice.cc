@@ -13,7 +13,9 @@ constexpr Duration kWaitingHurry = std::chrono::seconds(2);
 /// that follows its goal as the estimate drifts does so by small hops.
 constexpr Duration kReasonLasts = std::chrono::seconds(1);
 
-bool isNews(Reason reason) { return reason != Reason::kFlying && reason != Reason::kSlowing; }
+bool isNews(Reason reason) {
+  return reason != Reason::kFlying && reason != Reason::kKeeping && reason != Reason::kSlowing;
+}
 
 PilotText textOf(const SafetyVerdict& verdict) {
   switch (verdict.state) {

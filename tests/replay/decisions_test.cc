@@ -145,7 +145,7 @@ TEST(Why, TimeOrCandidateThatIsNotThereIsExplained) {
     }
   };
   EXPECT_THAT(refusal({.at = std::chrono::seconds(5)}), HasSubstr("no plan is made 5.000 s into the log or later"));
-  EXPECT_THAT(refusal({.at = std::chrono::milliseconds(500), .candidate = 127}), HasSubstr("considered 0 .. 126"));
+  EXPECT_THAT(refusal({.at = std::chrono::milliseconds(500), .candidate = 128}), HasSubstr("considered 0 .. 127"));
   EXPECT_THAT(refusal({.at = Duration{}, .candidate = 3}), HasSubstr("considered none"));
 }
 

@@ -12,7 +12,8 @@ std::string vectorText(const Vec3& v) { return fmt::format("{:8.2f}{:8.2f}{:8.2f
 
 std::string_view nameOf(std::uint32_t index) {
   if (index == kGoalDirected) return "goal-directed";
-  return index == kBrake ? "brake" : "";
+  if (index == kBrake) return "brake";
+  return index == kBrakeInForce ? "brake in force" : "";
 }
 
 /// What refused the candidate, and where; empty if nothing did.

@@ -11,7 +11,9 @@ void PlanStatistics::record(const Decision& decision) {
   for (std::size_t i = 0; i < kStatusCount; ++i) by_status_[i] += decision.vetoes.by_status[i];
   by_neighbours_ += decision.vetoes.by_neighbours;
   of_brakes_ += decision.vetoes.of_brakes;
-  if (decision.reason != Reason::kFlying && decision.reason != Reason::kGoingRound) return;
+  const bool flies = decision.reason == Reason::kFlying || decision.reason == Reason::kGoingRound ||
+                     decision.reason == Reason::kKeeping;
+  if (!flies) return;
   flown_risks_.push_back(decision.risk);
   if (!decision.brake_verified) ++flown_without_brake_;
 }

@@ -10,6 +10,7 @@ class Outcome(Enum):
 
     FLYING = Look("flying", "#009E73", "")
     GOING_ROUND = Look("going round", "#8FD3BC", "")
+    KEEPING = Look("keeping on", "#7A9A01", "")
     AT_GOAL = Look("at the goal", "#56B4E9", "")
     SLOWING = Look("slowing down", "#0072B2", "v")
     TURNING = Look("turning to the goal", "#CC79A7", "o")
@@ -26,6 +27,7 @@ class Outcome(Enum):
 OUTCOMES = {
     "flying": Outcome.FLYING,
     "going round what is in the way": Outcome.GOING_ROUND,
+    "no better way is safe: keeping to the verified motion and its brake": Outcome.KEEPING,
     "at the goal": Outcome.AT_GOAL,
     "faster than the goal's top speed: slowing down": Outcome.SLOWING,
     "the goal is out of view: turning towards it": Outcome.TURNING,

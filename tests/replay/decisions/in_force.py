@@ -12,11 +12,13 @@ NOTHING_VERIFIED = "nothing is safe, not even stopping: keep to the last verifie
 
 @dataclass(frozen=True)
 class Start:
-    """In W [m, m/s, m/s^2]; what is not finite is not known."""
+    """In W [m, m/s, m/s^2]; what is not finite is not known. On the motion in force if there is one."""
 
     position: np.ndarray
     velocity: np.ndarray
     acceleration: np.ndarray
+    in_force: Motion | None = None
+    passed_s: float = 0.0  # of the motion in force
 
 
 class InForce:
@@ -33,7 +35,10 @@ class InForce:
         measured = Start(*(np.array(v) for v in (pose.world_from_body.translation, pose.velocity, pose.acceleration)))
         if self._motion is None or self._epoch != pose.epoch:
             return measured
-        told = self._motion.at(np.array([(pose.utime - self._motion.utime) / 1e6]))
+        passed_s = (pose.utime - self._motion.utime) / 1e6
+        told = self._motion.at(np.array([passed_s]))
         follows = (np.linalg.norm(measured.position - told.position[0]) <= self._settings.max_position_error_m
                    and np.linalg.norm(measured.velocity - told.velocity[0]) <= self._settings.max_velocity_error_m_s)
-        return Start(told.position[0], told.velocity[0], told.acceleration[0]) if follows else measured
+        if not follows:
+            return measured
+        return Start(told.position[0], told.velocity[0], told.acceleration[0], self._motion, passed_s)

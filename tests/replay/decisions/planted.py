@@ -8,7 +8,7 @@ from evidence import Space
 from in_force import Start
 from motion import Motion
 from nanomap_log import Status
-from verify import BRAKE, Fault, Verified, verify
+from verify import IN_FORCE, STOPS, Fault, Verified, verify
 
 DETOUR_S = 0.4
 BEHIND_M = 0.5
@@ -67,7 +67,7 @@ def _jerk(decision, piece: int, factor: float):
 
 
 def _moving_brake(decision) -> bool:
-    return decision.primitive != BRAKE and decision.brake.num_pieces > 2
+    return decision.primitive not in STOPS and decision.brake.num_pieces > 2
 
 
 # Name -> what the check must call it, and the change; None where the decision cannot carry it.
@@ -83,7 +83,10 @@ PLANTED = {
         if _moving_brake(d) else None),
     "acceleration above the limit": (Fault.LIMITS, lambda d, v, s: _with(d, trajectory__piece_jerk=[
         [0.0, 0.0, (1.1 * s.settings.vertical_m_s2 - d.trajectory.acceleration[2]) / d.trajectory.piece_duration[0]],
-        *d.trajectory.piece_jerk[1:]]) if d.primitive != BRAKE else None),
+        *d.trajectory.piece_jerk[1:]]) if d.primitive not in STOPS else None),
+    "keeps to the brake a little longer": (Fault.IN_FORCE, lambda d, v, s: _with(
+        d, brake__piece_duration=[1.1 * d.brake.piece_duration[0], *d.brake.piece_duration[1:]])
+        if d.primitive == IN_FORCE else None),
     "jerk above the limit": (Fault.LIMITS, lambda d, v, s: _with(
         d, brake=_detour(d.brake, [2.1 * s.settings.jerk_m_s3 * (DETOUR_S / 4)**3, 0, 0]))),
     "stands behind an obstacle": (Fault.END, lambda d, v, s: _led_to(

@@ -15,7 +15,10 @@ from in_force import Start
 from motion import Motion
 from nanomap_log import Status
 
-BRAKE = 126  # planner/primitive_library.h: its motion is its brake
+# planner/primitive_library.h: their motions are their brakes
+BRAKE = 126
+IN_FORCE = 127
+STOPS = (BRAKE, IN_FORCE)
 
 ROUNDING = 1e-9  # metres and seconds, of double precision after some pieces
 SINGLE_M = 5e-5  # the module measures distances in single precision
@@ -33,6 +36,7 @@ class Fault(StrEnum):
     CONSUMED = "consumed other inputs"
     START = "does not start at the vehicle's state"
     LIMITS = "exceeds a limit of acceleration, jerk or time"
+    IN_FORCE = "is not what is left of the motion in force"
     SHARED = "the brake leaves the motion too early"
     REST = "the brake does not end at rest"
     END = "the brake ends where nothing is seen as free"
@@ -63,7 +67,7 @@ def verify(decision, pose, start: Start, space: Space) -> Verified:
     trajectory, brake = Motion(decision.trajectory), Motion(decision.brake)
     _verify_motions(decision, pose, start, trajectory, brake, space.settings, result.faults)
     result.exact_risk = _verify_risk("motion", trajectory, space.settings.samples, decision.risk, space, result)[0]
-    steps = space.settings.samples if decision.primitive == BRAKE else space.settings.brake_samples
+    steps = space.settings.samples if decision.primitive in STOPS else space.settings.brake_samples
     result.exact_brake_risk, samples = _verify_risk("brake", brake, steps, decision.brake_risk, space, result)
     _verify_end(samples, space.settings.radius_m, result)
     for name, motion in (("motion", trajectory), ("brake", brake)):
@@ -90,21 +94,32 @@ def _verify_motions(decision, pose, start: Start, trajectory: Motion, brake: Mot
     end = brake.boundaries()
     speed = float(np.linalg.norm(trajectory.boundaries().velocity[0]))
     full, vertical = settings.horizontal_at_full_m_s2, settings.vertical_m_s2
-    if decision.primitive != BRAKE:
+    if decision.primitive not in STOPS:
         horizontal = settings.horizontal_limit_m_s2(speed)
         faults += _limit_faults("motion", trajectory, horizontal, vertical, settings.jerk_m_s3, 0.0)
         if abs(trajectory.duration - settings.horizon_s(speed)) > ROUNDING:
             add(Fault.LIMITS, f"motion: {trajectory.duration} s, not {settings.horizon_s(speed)} s")
-    shared_s = 0.0 if decision.primitive == BRAKE else settings.brake_after_s
+    shared_s = 0.0 if decision.primitive in STOPS else settings.brake_after_s
     faults += _limit_faults("brake", brake, full, vertical, settings.jerk_m_s3, shared_s)
 
-    shared = np.linspace(0, trajectory.duration if decision.primitive == BRAKE else settings.brake_after_s, 26)
+    shared = np.linspace(0, trajectory.duration if decision.primitive in STOPS else settings.brake_after_s, 26)
     for one, other in zip(_fields(trajectory.at(shared)), _fields(brake.at(shared))):
         if not _close(one, other):
             add(Fault.SHARED, f"by {np.abs(one - other).max()}")
+    if decision.primitive == IN_FORCE:
+        faults += _in_force_faults(brake, start)
     for name, rest in (("velocity", end.velocity[-1]), ("acceleration", end.acceleration[-1])):
         if np.abs(rest).max() > ROUNDING * (1 + np.abs(end.acceleration).max() + np.abs(end.velocity).max()):
             add(Fault.REST, f"{name} {rest}")
+
+
+def _in_force_faults(brake: Motion, start: Start) -> list:
+    if start.in_force is None:
+        return [(Fault.IN_FORCE, "nothing is")]
+    elapsed = np.linspace(0, brake.duration, 26)
+    told, kept = brake.at(elapsed), start.in_force.at(start.passed_s + elapsed)
+    return [(Fault.IN_FORCE, f"by {np.abs(one - other).max()}") for one, other in zip(_fields(told), _fields(kept))
+            if not _close(one, other)]
 
 
 def _limit_faults(name: str, motion: Motion, horizontal: float, vertical: float, jerk: float, shared_s: float) -> list:

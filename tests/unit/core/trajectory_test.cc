@@ -34,9 +34,9 @@ Motion integrated(const Trajectory& trajectory, double elapsed_s) {
 }
 
 void expectNear(const Motion& a, const Motion& b, double tolerance) {
-  EXPECT_LT((a.position_m - b.position_m).norm(), tolerance);
-  EXPECT_LT((a.velocity_m_s - b.velocity_m_s).norm(), tolerance);
-  EXPECT_LT((a.acceleration_m_s2 - b.acceleration_m_s2).norm(), tolerance);
+  EXPECT_LE((a.position_m - b.position_m).norm(), tolerance);
+  EXPECT_LE((a.velocity_m_s - b.velocity_m_s).norm(), tolerance);
+  EXPECT_LE((a.acceleration_m_s2 - b.acceleration_m_s2).norm(), tolerance);
 }
 
 TEST(Trajectory, AgreesWithNumericIntegration) {
@@ -72,6 +72,30 @@ TEST(Trajectory, FirstPartIsTheSameMotionCutShort) {
     expectNear(part.atEnd(), trajectory.sample(cut_s), 1e-15);
     EXPECT_EQ(part.start(), trajectory.start());
   }
+}
+
+TEST(Trajectory, RestIsTheSameMotionFromThenOn) {
+  const Trajectory trajectory = twoPieces();
+  for (const int passed_ms : {0, 100, 200, 700, 1000, 5000}) {
+    const Time from = trajectory.start() + milliseconds(passed_ms);
+    const Trajectory rest = trajectory.rest(from);
+    EXPECT_EQ(rest.start(), from);
+    EXPECT_NEAR(rest.duration_s(), std::max(1.0 - passed_ms / 1e3, 0.0), 1e-15);
+    for (const int later_ms : {0, 50, 100, 600, 2000}) {
+      const Time later = from + milliseconds(later_ms);
+      expectNear(rest.sample(later), trajectory.sample(later), 1e-14);
+    }
+  }
+}
+
+TEST(TrajectorySampler, IsTheTrajectoryToTheLastBit) {
+  const Trajectory trajectory = twoPieces();
+  const TrajectorySampler sampler(trajectory);
+  EXPECT_EQ(sampler.duration_s(), trajectory.duration_s());
+  for (double elapsed_s = -0.1; elapsed_s < 1.2; elapsed_s += 0.01)
+    expectNear(sampler.at(elapsed_s), trajectory.sample(elapsed_s), 0.0);
+  for (const double elapsed_s : {0.2, 1.0}) expectNear(sampler.at(elapsed_s), trajectory.sample(elapsed_s), 0.0);
+  EXPECT_EQ(TrajectorySampler(Trajectory(Time{}, kStart)).at(1.0).position_m, kStart.position_m);
 }
 
 TEST(Trajectory, LeavesOutPiecesOfNoLength) {

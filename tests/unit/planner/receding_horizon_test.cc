@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "planner/brake.h"
+#include "planner/primitive_library.h"
 #include "tests/unit/planner/flight.h"
 
 namespace nanomap {
@@ -126,6 +128,76 @@ TEST_F(RecedingHorizonOverAField, ExplainingTakesNothingIntoForce) {
   const Explanation explanation = horizon_.explain(flight_.snapshot(), flight_.state(), goal_, flight_.now());
   EXPECT_EQ(explanation.decision.reason, Reason::kFlying);
   EXPECT_FALSE(horizon_.inForce());
+}
+
+/// A brake that was verified ends where it was verified to, whatever brakes that begin anew would do.
+TEST(RecedingHorizon, TowardsAWallEveryPlanIsVerified) {
+  int kept = 0;
+  for (const double distance_m : {6.0, 8.0, 10.0, 12.0}) {
+    Flight flight(DrawnWorld{{test::Block{{distance_m, -40.0, 0.0}, {distance_m + 1.0, 40.0, 20.0}}}}, {0.0, 0.0, 2.0},
+                  0.0);
+    for (const Decision& decision : flight.fly(goalAt({50.0, 0.0, 2.0}, 8.0), 6.0)) {
+      EXPECT_TRUE(decision.brake_verified) << distance_m << " m: " << toString(decision.reason);
+      kept += decision.reason == Reason::kKeeping;
+    }
+    EXPECT_LT(flight.motion().velocity_m_s.norm(), 0.5) << distance_m;
+    EXPECT_GT(flight.leastClearance_m(), 0.4) << distance_m;
+  }
+  EXPECT_GT(kept, 0);
+}
+
+/// On its way to a stop before a wall, where a brake that begins anew has to bring its acceleration up once more.
+class RecedingHorizonHalfwayThroughABrake : public testing::Test {
+ protected:
+  /// @param left_m  from where the brake in force ends to the wall
+  Decision planWith(double left_m, bool keeps_it) {
+    const Vec3 here_m(0.0, 0.0, 2.0);
+    const Motion fast{here_m, {6.0, 0.0, 0.0}, Vec3::Zero()};
+    const Trajectory whole = brakeAfter(Trajectory(kNow - 5 * kPeriod, fast), 0.0, MotionLimits());
+    Motion start = fast;
+    start.position_m += here_m - whole.sample(kNow).position_m;
+    brake_ = brakeAfter(Trajectory(whole.start(), start), 0.0, MotionLimits());
+
+    const double face_m = brake_.atEnd().position_m.x() + left_m;
+    Flight flight(DrawnWorld{{test::Block{{face_m, -40.0, 0.0}, {face_m + 1.0, 40.0, 20.0}}}}, here_m, 0.0);
+    flight.look();
+    EXPECT_EQ(flight.now(), kNow);
+    const Motion motion = brake_.sample(kNow);
+    VehicleState state = flight.state();
+    state.T_W_B.translation_m = motion.position_m;
+    state.velocity_W_m_s = motion.velocity_m_s;
+    state.acceleration_W_m_s2 = motion.acceleration_m_s2;
+    const Trajectory rest = brake_.rest(kNow);
+    return flight.planner().plan(flight.snapshot(), state, goalAt({50.0, 0.0, 2.0}, 8.0), kNow,
+                                 keeps_it ? &rest : nullptr);
+  }
+
+  static constexpr Time kNow = Time(std::chrono::milliseconds(999'900));
+  Trajectory brake_;
+};
+
+TEST_F(RecedingHorizonHalfwayThroughABrake, WhereNoNewPlanIsSafeItIsFlownToItsEnd) {
+  ASSERT_EQ(planWith(0.72, false).reason, Reason::kRetreating) << "braking anew comes too near";
+  const Decision decision = planWith(0.72, true);
+  EXPECT_EQ(decision.reason, Reason::kKeeping);
+  EXPECT_EQ(decision.candidate, kBrakeInForce);
+  EXPECT_EQ(decision.candidates, kCandidateCount + 1);
+  EXPECT_TRUE(decision.brake_verified);
+  EXPECT_LT((decision.brake.atEnd().position_m - brake_.atEnd().position_m).norm(), 1e-12);
+  EXPECT_EQ(decision.brake.start(), decision.stamp);
+}
+
+TEST_F(RecedingHorizonHalfwayThroughABrake, TooNearToStandItIsStillTheBetterStop) {
+  const Decision anew = planWith(0.55, false);
+  const Decision decision = planWith(0.55, true);
+  EXPECT_EQ(decision.reason, Reason::kRetreating);
+  EXPECT_EQ(decision.candidate, kBrakeInForce);
+  EXPECT_FALSE(decision.brake_verified);
+  EXPECT_LT(decision.risk, anew.risk);
+}
+
+TEST_F(RecedingHorizonHalfwayThroughABrake, WithRoomAMotionThatLeadsFartherGoesBeforeIt) {
+  EXPECT_NE(planWith(4.0, true).candidate, kBrakeInForce);
 }
 
 }  // namespace

@@ -62,6 +62,19 @@ TEST(ExplanationText, ListsEveryCandidateAndWhatRefusedIt) {
   EXPECT_THAT(text, HasSubstr("outside fov, worst after"));
 }
 
+TEST(ExplanationText, NamesTheBrakeInForce) {
+  const Moment moment = beforeAWall();
+  Trajectory in_force(moment.snapshot.stamp, {moment.state.T_W_B.translation_m, Vec3::Zero(), Vec3::Zero()});
+  in_force.append(0.1, Vec3::Zero());
+  const Explanation explanation =
+      Planner({}).explain(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp, &in_force);
+  Text text;
+  writeExplanation(text, explanation, moment, kBrakeInForce);
+  const std::string told = text.take();
+  EXPECT_THAT(told, HasSubstr("motion of candidate 127 brake in force"));
+  EXPECT_EQ(linesWith(told, "brake in force"), 2U);
+}
+
 TEST(ExplanationText, ShowsTheViewThatAnsweredForEachSample) {
   const std::string text = explained(beforeAWall(), kGoalDirected);
   EXPECT_THAT(text, HasSubstr("motion of candidate 125 goal-directed"));
