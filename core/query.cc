@@ -19,6 +19,16 @@ Location locate(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const 
   return newest;
 }
 
+std::optional<std::uint32_t> newestHolding(const ChainSnapshot& snapshot, const Vec3& mean_B_m, std::uint32_t count) {
+  assert(count <= snapshot.views.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const SnapshotView& view = snapshot.views[i];
+    const Vec3 mean_C_m = view.R_C_B * mean_B_m + view.t_C_B_m;
+    if (contains(view.view->camera().frustum(), mean_C_m, Vec3::Zero())) return i;
+  }
+  return std::nullopt;
+}
+
 namespace {
 
 /// nearestAt(), written where the reply is wanted.

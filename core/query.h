@@ -46,6 +46,12 @@ struct QueryReply {
 /// Allocates: no. Threads: any number of readers. "No view contains it" is a status, not an error.
 [[nodiscard]] Location locate(const ChainSnapshot& snapshot, const UncertainPoint& x_B, const QueryOptions& options);
 
+/// The newest of the first `count` views whose frustum holds the mean, whatever else it knows of it; empty: none does.
+/// @param mean_B_m  as locate()'s. @pre no more than the snapshot has
+/// Allocates: no. Threads: any number of readers.
+[[nodiscard]] std::optional<std::uint32_t> newestHolding(const ChainSnapshot& snapshot, const Vec3& mean_B_m,
+                                                         std::uint32_t count);
+
 /// Nearest obstacles to an uncertain point, in the view that locate() finds.
 /// @return     status, view, the point in that view's camera frame, up to k neighbours of the mean
 /// @pre 1 <= options.k <= kMaxNeighbours

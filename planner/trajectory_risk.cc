@@ -8,15 +8,22 @@
 namespace nanomap {
 namespace {
 
-/// Of TrajectoryRisk::cramped.
-constexpr std::uint64_t crampedBit(std::size_t sample) {
+/// Of TrajectoryRisk::second_looks.
+constexpr std::uint64_t bitOf(std::size_t sample) {
   constexpr std::size_t kLast = 63;
   return std::uint64_t{1} << std::min(sample, kLast);
 }
 
+/// Of touching what was measured, by the views that were asked. One error of the vehicle's place is behind all ways to
+/// touch something: the likeliest of them counts.
+double touchedProbability(const SampleEvidence& sample) {
+  return std::max(
+      {sample.collision_probability, sample.beside.collision_probability, sample.newer.collision_probability});
+}
+
 /// Of a veto that is due to `sample`: to the one that weighs most, or to the one that was too much.
 VetoCause causeOf(const SampleEvidence& sample, double max_risk) {
-  const double touched = std::max(sample.collision_probability, sample.beside.collision_probability);
+  const double touched = touchedProbability(sample);
   if (sample.prior >= std::max(touched, sample.unseen_probability)) return {sample.status};
   if (touched <= max_risk && sample.unseen_probability > touched) return {Status::kPartial};
   return {};
@@ -31,7 +38,7 @@ class RiskTally {
     survival_ *= 1.0 - sample.risk;
     result_.least_distance_m = std::min(result_.least_distance_m, sample.distance_m());
     result_.largest_prior = std::max(result_.largest_prior, sample.prior);
-    if (sample.cramped) result_.cramped |= crampedBit(count_);
+    if (sample.needsSecondLook()) result_.second_looks |= bitOf(count_);
     ++count_;
     if (result_.veto) return;
     if (sample.risk > heaviest_.risk) heaviest_ = sample;
@@ -57,12 +64,9 @@ class RiskTally {
   TrajectoryRisk result_;
 };
 
-/// One error of the vehicle's place is behind all ways to touch something: the likeliest of them counts.
-double reached(const SampleEvidence& sample) {
-  return std::max({sample.collision_probability, sample.unseen_probability, sample.beside.collision_probability});
+double riskOf(const SampleEvidence& sample) {
+  return 1.0 - (1.0 - sample.prior) * (1.0 - std::max(touchedProbability(sample), sample.unseen_probability));
 }
-
-double riskOf(const SampleEvidence& sample) { return 1.0 - (1.0 - sample.prior) * (1.0 - reached(sample)); }
 
 }  // namespace
 
@@ -124,6 +128,17 @@ SpaceAhead::Near SpaceAhead::nearTo(const Place& place, const Location& location
   return near;
 }
 
+SecondLook SpaceAhead::lookInto(const Place& place, const std::optional<std::uint32_t>& view_index) const {
+  SecondLook look;
+  look.asked = true;
+  if (!view_index) return look;
+  const Near near = nearTo(place, {Status::kPartial, view_index});
+  look.view_index = view_index;
+  look.nearest_m = near.nearest_m;
+  look.collision_probability = near.collision_probability;
+  return look;
+}
+
 bool SpaceAhead::hasRoom(const Near& near) const {
   const View& view = *snapshot_.views[*near.reply.view_index].view;
   const Vec3 half_size_C_m = near.reply.x_C.covariance_m2.diagonal().cwiseMax(0.0).cwiseSqrt();
@@ -148,7 +163,10 @@ SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool
     const Near near = nearTo(place, location);
     sample.nearest_m = near.nearest_m;
     sample.collision_probability = near.collision_probability;
-    sample.cramped = parameters_.look_beside && endsSearch(location.status) && !hasRoom(near);
+    if (parameters_.look_beside && endsSearch(location.status)) {
+      sample.cramped = !hasRoom(near);
+      sample.overtaken = *location.view_index > 0;
+    }
     // Both bound the same error: the larger one holds for what was measured and for what was not.
     const bool demanded = parameters_.demand_certificate && place.x_B.mean_m.norm() > parameters_.certificate_beyond_m;
     if (demanded && !certain && !(stop_early && sample.collision_probability > parameters_.max_risk)) {
@@ -160,17 +178,20 @@ SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool
 }
 
 void SpaceAhead::lookBeside(const Motion& motion_W, SampleEvidence& sample) const {
-  if (!sample.cramped) return;
-  sample.cramped = false;
-  sample.beside.asked = true;
+  if (!sample.needsSecondLook()) return;
   const Place place = placeAt(motion_W, sample.elapsed_s);
-  const Location location = locate(snapshot_, place.x_B, with_room_);
-  if (endsSearch(location.status)) {
-    const Near near = nearTo(place, location);
-    sample.beside = {true, location.view_index, near.nearest_m, near.collision_probability};
-  } else if (!sample.in_bubble && place.x_B.mean_m.norm() > parameters_.beside_beyond_m) {
-    sample.unseen_probability = 1.0;
+  if (sample.overtaken) {
+    sample.newer = lookInto(place, newestHolding(snapshot_, place.x_B.mean_m, *sample.view_index));
   }
+  if (sample.cramped) {
+    const Location location = locate(snapshot_, place.x_B, with_room_);
+    const bool has_room = endsSearch(location.status);
+    sample.beside = lookInto(place, has_room ? location.view_index : std::nullopt);
+    const bool far = !sample.in_bubble && place.x_B.mean_m.norm() > parameters_.beside_beyond_m;
+    if (!has_room && far) sample.unseen_probability = 1.0;
+  }
+  sample.cramped = false;
+  sample.overtaken = false;
   sample.risk = riskOf(sample);
 }
 
@@ -210,12 +231,12 @@ TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, boo
 
 void SpaceAhead::lookBeside(const Trajectory& trajectory, int samples, bool stop_early, TrajectoryRisk& judged,
                             std::vector<SampleEvidence>* evidence) const {
-  if (judged.cramped == 0) return;
+  if (judged.second_looks == 0) return;
   std::size_t count = 0;
   SampleEvidence sample;
   const auto goOn = [&](const Motion& motion_W, double elapsed_s) {
     const std::size_t number = count++;
-    if ((judged.cramped & crampedBit(number)) == 0) return true;
+    if ((judged.second_looks & bitOf(number)) == 0) return true;
     sample = assess(motion_W, elapsed_s);
     const double survival = 1.0 - sample.risk;
     lookBeside(motion_W, sample);
@@ -226,10 +247,10 @@ void SpaceAhead::lookBeside(const Trajectory& trajectory, int samples, bool stop
     return !(stop_early && judged.veto);
   };
   const bool goes_on = goOn(trajectory.atStart(), 0.0);
-  if (judged.first.cramped) judged.first = sample;
+  if (judged.first.needsSecondLook()) judged.first = sample;
   if (goes_on) Stretches(trajectory, samples).visit(parameters_.collision.vehicle_radius_m, goOn);
-  if (judged.last.cramped && sample.elapsed_s == judged.last.elapsed_s) judged.last = sample;
-  judged.cramped = 0;
+  if (judged.last.needsSecondLook() && sample.elapsed_s == judged.last.elapsed_s) judged.last = sample;
+  judged.second_looks = 0;
 }
 
 }  // namespace nanomap

@@ -46,8 +46,10 @@ struct RiskParameters {
   CollisionParameters collision;
   QueryOptions query;
 
-  /// Where the view that answers holds less than the vehicle around the place, what is near may lie just beside it:
-  /// the newest view with room for the vehicle is asked as well. Without it, the paper's answer alone.
+  /// The view that answers need not know all that is near. Where it holds less than the vehicle around the place, what
+  /// is near may lie just beside it: the newest view with room for the vehicle is asked as well. Where newer views
+  /// could not answer (a hole among depths, say), they may all the same have measured what is near: the newest that
+  /// holds the place is asked as well. Without it, the paper's answer alone.
   bool look_beside = true;
   /// Farther than this from the vehicle, a place that no view has room around may have anything beside it. Nearer, most
   /// places are such while it stands.
@@ -62,8 +64,8 @@ struct RiskParameters {
   std::array<double, kStatusCount> prior = defaultPriors();
 };
 
-/// What the newest view knows that has room around a place for the vehicle.
-struct BesideEvidence {
+/// What another view has measured near a place than the one that answers.
+struct SecondLook {
   bool asked = false;
   std::optional<std::uint32_t> view_index;  ///< in the snapshot, 0 the newest; none: there is no such view
   std::optional<double> nearest_m;          ///< as of SampleEvidence
@@ -81,15 +83,19 @@ struct SampleEvidence {
   double prior = 0.0;                  ///< from the status; 0 in the bubble
   double collision_probability = 0.0;  ///< from the neighbours
   double unseen_probability = 0.0;     ///< of reaching what no view has seen, as far as that must be known
-  bool cramped = false;  ///< the view that answers has no room for the vehicle there, and no other was asked
-  BesideEvidence beside;
-  double risk = 0.0;  ///< of all
+  bool cramped = false;    ///< the view that answers has no room for the vehicle there, and no other was asked
+  bool overtaken = false;  ///< there are newer views than the one that answers, and none was asked
+  SecondLook beside;       ///< the newest view that has room around the place for the vehicle
+  SecondLook newer;        ///< the newest view that holds the place, if that is newer than the one that answers
+  double risk = 0.0;       ///< of all
 
   /// Distance to the nearest measured point; infinite if there is none that matters.
   [[nodiscard]] double distance_m() const {
     constexpr double kNone = std::numeric_limits<double>::infinity();
-    return std::min(nearest_m.value_or(kNone), beside.nearest_m.value_or(kNone));
+    return std::min({nearest_m.value_or(kNone), beside.nearest_m.value_or(kNone), newer.nearest_m.value_or(kNone)});
   }
+
+  [[nodiscard]] bool needsSecondLook() const { return cramped || overtaken; }
 
   /// Free or open, or where the vehicle is anyway: a place to stand still.
   [[nodiscard]] bool seenFree() const { return in_bubble || endsSearch(status); }
@@ -110,8 +116,9 @@ struct TrajectoryRisk {
   double least_distance_m = std::numeric_limits<double>::infinity();  ///< of all samples
   double largest_prior = 0.0;                                         ///< of all samples
   SampleEvidence first;                                               ///< the trajectory's start
-  SampleEvidence last;        ///< the trajectory's end, unless evaluation stopped early
-  std::uint64_t cramped = 0;  ///< bits of the samples that are; the last stands for all that follow its own, too
+  SampleEvidence last;  ///< the trajectory's end, unless evaluation stopped early
+  /// Bits of the samples that need one; the last stands for all that follow its own, too.
+  std::uint64_t second_looks = 0;
 };
 
 /// Judges trajectories by what a snapshot knows. Borrows both arguments.
@@ -134,7 +141,8 @@ class SpaceAhead {
                                       std::vector<SampleEvidence>* evidence = nullptr,
                                       const SampleEvidence* start = nullptr) const;
 
-  /// Looks beside the views that answered the cramped samples. Their risks, and that of `judged`, only rise.
+  /// Looks beside the views that answered, and into newer ones, for the samples that need it. Their risks, and that of
+  /// `judged`, only rise.
   /// @param judged      assess()'s of the same trajectory, with the same number of samples
   /// @param stop_early  stop as soon as the risk is above the constraint
   /// @param evidence    assess()'s, of this trajectory alone
@@ -156,6 +164,7 @@ class SpaceAhead {
   [[nodiscard]] Near nearTo(const Place& place, const Location& location) const;
   [[nodiscard]] Mat3 covariance_B(double horizontal_std_m, double vertical_std_m) const;
   [[nodiscard]] double unseenProbability(const UncertainPoint& x_B, double reach_m) const;
+  [[nodiscard]] SecondLook lookInto(const Place& place, const std::optional<std::uint32_t>& view_index) const;
   [[nodiscard]] bool hasRoom(const Near& near) const;
 
   const ChainSnapshot& snapshot_;

@@ -189,8 +189,9 @@ Section riskSection() {
        booleanKey(
            "look_beside",
            "Where the view that answers holds less than the vehicle around a place, also ask the newest view that\n"
-           "holds all of it: a ledge just above a view's upper edge is not in it. false: the answering view alone, as\n"
-           "in the paper.",
+           "holds all of it: a ledge just above a view's upper edge is not in it. And where newer views could not\n"
+           "answer, also ask the newest that holds the place: before a gap in its depths there may be a branch that\n"
+           "only it has seen. false: the answering view alone, as in the paper.",
            [](auto& c) -> auto& { return c.planner.risk.look_beside; }),
        numberKey(
            "beside_beyond_m",

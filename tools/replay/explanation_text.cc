@@ -72,6 +72,18 @@ void writeCandidates(Text& text, const Explanation& explanation) {
   }
 }
 
+/// Below the sample's own line, in the same columns.
+void writeSecondLook(Text& text, std::string_view name, const SecondLook& look, const ChainSnapshot& snapshot) {
+  if (!look.asked) return;
+  if (!look.view_index) {
+    text.line("  {:>7}  {:>24}    {:<11}{:>10}", "", "", name, "unseen");
+    return;
+  }
+  text.line("  {:>7}  {:>24}    {:<11}{:>10}{:>10}{:>12}{:>10}{:>10.2g}", "", "", name, *look.view_index,
+            snapshot.views[*look.view_index].view->sequence(),
+            look.nearest_m ? fmt::format("{:.2f}", *look.nearest_m) : "-", "", look.collision_probability);
+}
+
 void writeSamples(Text& text, std::string_view title, const std::vector<SampleEvidence>& samples,
                   const ChainSnapshot& snapshot) {
   if (samples.empty()) return;
@@ -87,14 +99,8 @@ void writeSamples(Text& text, std::string_view title, const std::vector<SampleEv
     text.line("  {:>7.3f}  {}  {:<13}{:>10}{:>10}{:>12}{:>10.2g}{:>10.2g}{:>10.2g}{}", sample.elapsed_s,
               vectorText(sample.position_W_m), toString(sample.status), back, sequence, nearest, sample.prior,
               sample.collision_probability, sample.risk, sample.in_bubble ? "  in the bubble" : "");
-    const BesideEvidence& beside = sample.beside;
-    if (beside.asked && !beside.view_index) {
-      text.line("  {:>7}  {:>24}  {:<13}{:>10}", "", "", "  beside", "unseen");
-    }
-    if (!beside.view_index) continue;
-    text.line("  {:>7}  {:>24}  {:<13}{:>10}{:>10}{:>12}{:>10}{:>10.2g}", "", "", "  beside", *beside.view_index,
-              snapshot.views[*beside.view_index].view->sequence(),
-              beside.nearest_m ? fmt::format("{:.2f}", *beside.nearest_m) : "-", "", beside.collision_probability);
+    writeSecondLook(text, "newer", sample.newer, snapshot);
+    writeSecondLook(text, "beside", sample.beside, snapshot);
   }
 }
 

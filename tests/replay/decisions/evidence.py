@@ -9,7 +9,7 @@ from chain import Step
 from motion import Motion, States
 from nanomap_log import Status
 from planner_settings import PlannerSettings
-from search import CONTAINED, Found, search
+from search import CONTAINED, Found, newest_holding, search
 from tail import NEGLIGIBLE_SIGMAS, tail
 
 STRETCHES = 5
@@ -51,6 +51,9 @@ class Space:
         found = search(self.steps, mean_B, covariance_B, up_B)
         nearest, collision = self._near(found, reach_m)
         if settings.look_beside:
+            newer_nearest, newer_collision = self._near(newest_holding(self.steps, mean_B, covariance_B, found), reach_m)
+            nearest = np.minimum(nearest, newer_nearest)
+            collision = np.maximum(collision, newer_collision)
             rows = np.flatnonzero(self._is_cramped(found))
             beside = search(self.steps, mean_B[rows], covariance_B[rows], up_B, settings.radius_m)
             with_room = np.isin(beside.status, CONTAINED)

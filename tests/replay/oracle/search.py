@@ -7,6 +7,7 @@ from chain import Step
 from nanomap_log import Status
 
 CONTAINED = (Status.FREE, Status.OPEN)
+ROUNDING_M = 1e-9
 
 
 @dataclass
@@ -43,6 +44,30 @@ def search(steps: list[Step], mean_B: np.ndarray, covariance_B: np.ndarray, up_B
         pending, mean, covariance = pending[~contained], mean[~contained], covariance[~contained]
         if len(pending) == 0:
             break
+    return found
+
+
+def newest_holding(steps: list[Step], mean_B: np.ndarray, covariance_B: np.ndarray, answered: Found) -> Found:
+    """The newest view whose frustum holds the mean, of those newer than the one that answered `search`. Marks points of
+    `answered` ambiguous where that hangs on rounding. `status` is EMPTY, and means nothing."""
+    found = Found(np.full(len(mean_B), Status.EMPTY), np.full(len(mean_B), -1), mean_B.copy(), covariance_B.copy(),
+                  answered.ambiguous)
+    mean, covariance = mean_B, covariance_B
+    pending = np.arange(len(mean_B))
+    for i, step in enumerate(steps):
+        wanted = i < answered.view[pending]
+        pending, mean, covariance = pending[wanted], mean[wanted], covariance[wanted]
+        if len(pending) == 0:
+            break
+        R, t = step.T_C_newer[:3, :3], step.T_C_newer[:3, 3]
+        mean = mean @ R.T + t
+        covariance = step.covariance + R @ covariance @ R.T
+        inside_m = step.view.inside_by(mean, np.zeros_like(covariance), 0.0)
+        found.ambiguous[pending] |= np.abs(inside_m) < ROUNDING_M
+        holds = inside_m >= 0
+        rows = pending[holds]
+        found.view[rows], found.mean[rows], found.covariance[rows] = i, mean[holds], covariance[holds]
+        pending, mean, covariance = pending[~holds], mean[~holds], covariance[~holds]
     return found
 
 

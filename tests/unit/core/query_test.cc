@@ -274,5 +274,24 @@ TEST_F(TurningFlight, ReadersAreUndisturbedByTheChainMovingOn) {
   EXPECT_EQ(chain_->viewCount(), static_cast<std::size_t>(kViews));
 }
 
+TEST(NewestHolding, IsTheFirstViewWithThePlaceInItsFrustumWhateverItKnows) {
+  const auto camera = test::model(test::smallCamera(96, 72));
+  Chain chain(ChainParameters{});
+  Time stamp(std::chrono::seconds(1));
+  for (const double yaw_W_rad : {0.0, 0.0, 1.6, 3.1}) {  // the newest looks back
+    (void)chain.addPose(
+        {.stamp = stamp, .T_W_B = {Quat(Eigen::AngleAxisd(yaw_W_rad, Vec3::UnitZ())), Vec3::Zero()}, .increment = {}});
+    (void)chain.addView(viewOf(flatImage(*camera, 0, stamp), camera));  // nothing but holes
+    stamp += std::chrono::milliseconds(100);
+  }
+  const ChainSnapshot snapshot = chain.snapshot();
+  const Vec3 behind_B(-3.0, 0.0, 0.0);
+  EXPECT_EQ(newestHolding(snapshot, behind_B, 4), 2U);
+  EXPECT_EQ(newestHolding(snapshot, behind_B, 3), 2U);
+  EXPECT_EQ(newestHolding(snapshot, behind_B, 2), std::nullopt);
+  EXPECT_EQ(newestHolding(snapshot, {3.0, 0.0, 0.0}, 4), 0U);
+  EXPECT_EQ(newestHolding(snapshot, {0.0, 0.0, 3.0}, 4), std::nullopt);
+}
+
 }  // namespace
 }  // namespace nanomap

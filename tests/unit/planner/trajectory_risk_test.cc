@@ -149,6 +149,65 @@ TEST(SpaceAhead, WhatLiesJustBesideTheViewThatAnswersIsSeenInAnother) {
   EXPECT_FALSE(seen.space().assess(along, 0.0).cramped);
 }
 
+/// The same way, seen twice; the second time there is no depth straight ahead, and a post beside the way.
+struct SeenWithAPostOnlyLast {
+  SeenWithAPostOnlyLast() {
+    const std::shared_ptr<const CameraModel> camera = test::model(test::flightCamera());
+    const Block wall{{6.0, -20.0, 0.0}, {6.5, 20.0, 12.0}};
+    const Block pane{{5.9, -0.3, 1.5}, {5.95, 0.3, 2.5}, true};
+    const Block post{{2.9, 0.5, 0.0}, {3.1, 0.7, 8.0}};
+    Chain chain(ChainParameters{});
+    Time stamp(std::chrono::seconds(1));
+    for (const DrawnWorld& world : {DrawnWorld{{wall}}, DrawnWorld{{wall, pane, post}}}) {
+      const Pose T_W_B{Quat::Identity(), {0.0, 0.0, 2.0}};
+      (void)chain.addPose({.stamp = stamp, .T_W_B = T_W_B, .increment = {}});
+      (void)chain.addView(test::viewOf(world.seenBy(*camera, T_W_B, stamp), camera));
+      stamp += std::chrono::milliseconds(100);
+    }
+    snapshot = chain.snapshot();
+  }
+
+  [[nodiscard]] SpaceAhead space() const { return {snapshot, parameters}; }
+
+  ChainSnapshot snapshot;
+  RiskParameters parameters = test::flightParameters().risk;
+};
+
+TEST(SpaceAhead, WhatANewerViewHasMeasuredCountsThoughAnOlderOneAnswers) {
+  SeenWithAPostOnlyLast seen;
+  const Motion beside_post{{3.0, 0.0, 2.0}, Vec3::Zero(), Vec3::Zero()};
+  SampleEvidence sample = seen.space().assess(beside_post, 0.0);
+  ASSERT_EQ(sample.status, Status::kFree);
+  ASSERT_EQ(sample.view_index, 1U) << "the newest has no depth there";
+  EXPECT_LT(sample.risk, 1e-9) << "the paper's answer";
+  EXPECT_TRUE(sample.overtaken);
+
+  seen.space().lookBeside(beside_post, sample);
+  EXPECT_FALSE(sample.overtaken);
+  EXPECT_FALSE(sample.beside.asked) << "there is room";
+  EXPECT_EQ(sample.newer.view_index, 0U);
+  ASSERT_TRUE(sample.newer.nearest_m);
+  EXPECT_NEAR(*sample.newer.nearest_m, 0.5, 0.03);
+  EXPECT_NEAR(sample.distance_m(), 0.5, 0.03);
+  EXPECT_GT(sample.risk, 0.001);
+  EXPECT_NEAR(sample.risk, sample.newer.collision_probability, 1e-12);
+
+  const Motion off_the_gap{{3.0, -1.5, 2.0}, Vec3::Zero(), Vec3::Zero()};
+  EXPECT_FALSE(seen.space().assess(off_the_gap, 0.0).overtaken) << "the newest answers itself";
+
+  Trajectory past(Time{}, Motion{{2.0, 0.0, 2.0}, {1.0, 0.0, 0.0}, Vec3::Zero()});
+  past.append(1.5, Vec3::Zero());
+  TrajectoryRisk risk = seen.space().assess(past, 20, false);
+  EXPECT_FALSE(risk.veto);
+  EXPECT_NE(risk.second_looks, 0U);
+  seen.space().lookBeside(past, 20, false, risk);
+  ASSERT_TRUE(risk.veto);
+  EXPECT_FALSE(risk.veto->status) << "measured points";
+
+  seen.parameters.look_beside = false;
+  EXPECT_FALSE(seen.space().assess(beside_post, 0.0).needsSecondLook());
+}
+
 TEST(SpaceAhead, FarAwayAPlaceThatNoViewHasRoomAroundIsRefused) {
   SeenTwice seen;
   const double edge_rad = -0.7 - 0.785 + 0.06;  // just inside the second look's right edge
@@ -182,13 +241,13 @@ TEST(SpaceAhead, AWayIsVetoedByWhatLiesBesideIt) {
   TrajectoryRisk risk = seen.space().assess(way, 20, false, &evidence);
   const TrajectoryRisk answered = risk;
   EXPECT_FALSE(answered.veto);
-  EXPECT_NE(answered.cramped, 0U);
+  EXPECT_NE(answered.second_looks, 0U);
   EXPECT_TRUE(answered.last.cramped);
 
   seen.space().lookBeside(way, 20, false, risk, &evidence);
   ASSERT_TRUE(risk.veto);
   EXPECT_FALSE(risk.veto->status) << "measured points";
-  EXPECT_EQ(risk.cramped, 0U);
+  EXPECT_EQ(risk.second_looks, 0U);
   EXPECT_NEAR(risk.least_distance_m, 0.45, 0.02);
   EXPECT_EQ(risk.last.beside.view_index, 1U);
   EXPECT_EQ(risk.last.elapsed_s, 2.0);
