@@ -61,20 +61,6 @@ TEST_P(SceneFlights, TenSeedsOfABlindPlannerEndInACrashButForOne) {
   EXPECT_GE(collisions(fly(kTen, kPapers, blindToObstacles())), kTen - 1);
 }
 
-/// A vehicle at 8 m/s that finds every way barred stops before a trunk where that was verified: 0.6 m farther on, where
-/// brakes that begin anew with every plan end, it touches.
-TEST(ForestFlight, StopsWhereThatWasVerified) {
-  generate::SensedFlightOptions options;
-  options.scene = "forest";
-  options.seed = 39;
-  options.vio.drift = {.horizontal_std_m = 0.2, .vertical_std_m = 0.2};
-  options.camera = generate::paperCamera(kPapers.width_px, kPapers.height_px);
-  const LockstepFlight flight =
-      flyInLockstep(loadConfiguration("", {}), generate::SensedFlight(options), std::chrono::seconds(8));
-  EXPECT_NE(flight.flown.outcome, Outcome::kCollision);
-  EXPECT_GT(flight.flown.flown_m, 20.0) << "it has come past that trunk";
-}
-
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneFlights, testing::Values("forest", "wall", "warehouse"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
