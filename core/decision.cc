@@ -9,7 +9,7 @@ std::string_view toString(Reason reason) {
     case Reason::kGoingRound:
       return "going round what is in the way";
     case Reason::kKeeping:
-      return "no better way is safe: keeping to the verified motion and its brake";
+      return "nothing new is better: keeping to the verified motion and its brake";
     case Reason::kAtGoal:
       return "at the goal";
     case Reason::kSlowing:

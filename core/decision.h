@@ -78,7 +78,7 @@ struct Decision {
 
   std::uint32_t candidates = 0;  ///< considered
   std::uint32_t evaluated = 0;   ///< by queries; the others could not have been chosen
-  std::uint32_t feasible = 0;    ///< of the evaluated, as far as asked: what would not be chosen is not looked beside
+  std::uint32_t feasible = 0;    ///< of the evaluated, as far as asked: what would not be chosen gets no second look
   VetoCounts vetoes;             ///< of the evaluated
 };
 

@@ -45,7 +45,7 @@ class Candidates {
              const Trajectory* in_force = nullptr);
 
   /// Indices are below it.
-  [[nodiscard]] std::uint32_t count() const { return in_force_ != nullptr ? kBrakeInForce + 1 : kCandidateCount; }
+  [[nodiscard]] std::uint32_t count() const { return in_force_ != nullptr ? kMostCandidates : kCandidateCount; }
 
   [[nodiscard]] const Objective& objective() const { return objective_; }
 
@@ -62,13 +62,13 @@ class Candidates {
   /// All of the candidate's brake, whatever its motion is worth.
   [[nodiscard]] TrajectoryRisk assessBrake(std::uint32_t index) const;
 
-  /// By the views that answer. What is feasible so far may lead past something that lies beside those: lookBeside().
+  /// By the views that answer. What is feasible so far may lead past something that others know of: lookBeside().
   /// @param stop_early  leave the risk of what is vetoed unfinished
   /// @param evidence    filled if given
   [[nodiscard]] Verdict judge(std::uint32_t index, bool stop_early, Evidence* evidence = nullptr) const;
 
-  /// Adds what lies beside the views that answered to judge()'s verdict and evidence, unless it is a veto. Only raises
-  /// risks: what is not worth choosing need not be looked beside.
+  /// Adds what lies beside the views that answered, and what newer ones have measured, to judge()'s verdict and
+  /// evidence, unless it is a veto. Only raises risks: what is not worth choosing needs no second look.
   void lookBeside(std::uint32_t index, bool stop_early, Verdict& verdict, Evidence* evidence = nullptr) const;
 
  private:

@@ -28,7 +28,8 @@ class Objective {
   Objective(const ObjectiveParameters& parameters, const Goal& goal, const Vec3& position_W_m)
       : parameters_(parameters), goal_(goal), distance_m_((goal.position_W_m - position_W_m).norm()) {}
 
-  /// Of a motion that flies on: worth without any risk. @param standstill_W_m  after its brake
+  /// Of a motion that flies on, or of what is left of one: worth without any risk. @param standstill_W_m  after its
+  /// brake
   [[nodiscard]] double motionReward(const Vec3& standstill_W_m, double speed_m_s) const;
 
   /// Of braking now: no speed cost, the least gain on top, so that a vehicle that is blocked stands and looks around

@@ -90,7 +90,7 @@ void count(const Verdict& verdict, Decision& decision) {
 
 /// The best of the feasible candidates. Counts into `decision`.
 std::optional<Choice> choose(const Task& task, bool early_exit, Decision& decision) {
-  std::array<Proposal, kBrakeInForce + 1> storage;
+  std::array<Proposal, kMostCandidates> storage;
   const std::span proposals = std::span(storage).first(task.candidates.count()).subspan(task.firstCandidate());
   for (std::uint32_t index = task.firstCandidate(); index < task.candidates.count(); ++index) {
     storage[index] = task.candidates.propose(index);
@@ -110,7 +110,7 @@ std::optional<Choice> choose(const Task& task, bool early_exit, Decision& decisi
       choice.objective = task.candidates.objective().value(proposal.reward, choice.verdict.motion.risk);
       return !best || isBetter(choice, *best);
     };
-    // What lies beside the views that answer makes nothing better: only what would be the best is looked beside.
+    // What other views know makes nothing better: only what would be the best gets a second look.
     if (isBest()) {
       task.candidates.lookBeside(choice.index, early_exit, choice.verdict);
       if (isBest()) best = choice;

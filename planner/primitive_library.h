@@ -17,7 +17,8 @@ inline constexpr std::uint32_t kLibrarySize = kVerticalLevels * (1 + kRings * kD
 inline constexpr std::uint32_t kGoalDirected = kLibrarySize;
 inline constexpr std::uint32_t kBrake = kLibrarySize + 1;
 inline constexpr std::uint32_t kCandidateCount = kLibrarySize + 2;
-inline constexpr std::uint32_t kBrakeInForce = kCandidateCount;
+inline constexpr std::uint32_t kBrakeInForce = kCandidateCount;  ///< what is left of the motion in force and its brake
+inline constexpr std::uint32_t kMostCandidates = kCandidateCount + 1;
 static_assert(kLibrarySize == 125);
 
 /// Whether the candidate is its own brake.

@@ -6,6 +6,9 @@ namespace nanomap {
 
 namespace {
 
+/// From where the motion in force ends, it is over.
+constexpr double kAllButThere_m = 0.05;
+
 /// What is steered for from `start`: a goal that cannot be is the planner's to refuse.
 std::optional<Goal> steered(Arrival& arrival, Detour& detour, const VehicleState& start,
                             const std::optional<Goal>& goal) {
@@ -66,9 +69,12 @@ bool RecedingHorizon::follows(const VehicleState& measured, Time now) const {
 
 std::optional<Trajectory> RecedingHorizon::restInForce(const VehicleState& measured, Time now) const {
   if (!follows(measured, now) || now < in_force_->stamp) return std::nullopt;
+  // By the paper's rule no brake is verified, and none is kept.
+  if (planner_.parameters().stop_check == StopCheck::kPaper) return std::nullopt;
   const Trajectory rest = in_force_->brake.rest(now);
-  // At a standstill there is nothing left to follow.
-  return rest.pieces().empty() ? std::nullopt : std::optional(rest);
+  // A vehicle that all but stands stops, looks around and moves away by plans of its own.
+  const double left_m = (rest.atEnd().position_m - rest.atStart().position_m).norm();
+  return left_m < kAllButThere_m ? std::nullopt : std::optional(rest);
 }
 
 VehicleState RecedingHorizon::startState(const VehicleState& measured, Time now) const {

@@ -16,8 +16,8 @@ namespace nanomap {
 /// The decision in force is the last one that may be flown (`isFlyable`), and what is flown of it is its brake, which
 /// is the chosen motion for the planner's `brake_after_s` and then leads to a standstill: nothing has to be switched
 /// when no new plan comes. The vehicle follows it if its measured position and velocity are within the planner's
-/// tracking tolerances of it; the plan then starts from the motion in force at `now`, and what is left of that is one
-/// of its candidates: a stop that was verified can be flown to its end. Else it starts from the state as
+/// tracking tolerances of it; the plan then starts from the motion in force at `now`, and what is left of that, judged
+/// anew, is one of its candidates: a stop that was verified can be flown to its end. Else it starts from the state as
 /// measured: after a jump of the estimator, in a hand that carries the vehicle, over a recording of someone else's
 /// flight.
 ///

@@ -21,7 +21,7 @@ bool leadsAway(const TrajectoryRisk& brake, double least_gain_m) {
   return brake.least_distance_m >= start_m - kRounding_m && brake.last.distance_m() >= start_m + least_gain_m;
 }
 
-/// Than stopping at once.
+/// Than stopping.
 bool isSafer(const TrajectoryRisk& brake, const TrajectoryRisk& stop, double least_gain_m) {
   const bool no_more = brake.risk <= stop.risk && brake.last.risk <= stop.last.risk;
   return no_more && (isMuchLess(brake.last.risk, stop.last.risk) || leadsAway(brake, least_gain_m));
@@ -41,8 +41,8 @@ Retreat bestStop(const Candidates& candidates, double max_risk) {
   Retreat best{kBrake, candidates.assessBrake(kBrake)};
   for (std::uint32_t index = kBrakeInForce; index < candidates.count(); ++index) {
     const TrajectoryRisk brake = candidates.assessBrake(index);
-    const bool best_is_known = isKnown(best.brake, max_risk);
-    if (isKnown(brake, max_risk) && (!best_is_known || brake.risk < best.brake.risk)) best = Retreat{index, brake};
+    const bool is_better = !isKnown(best.brake, max_risk) || worth(brake) > worth(best.brake);
+    if (isKnown(brake, max_risk) && is_better) best = Retreat{index, brake};
   }
   return best;
 }

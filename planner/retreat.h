@@ -26,7 +26,7 @@ struct Retreat {
 /// into what was not seen is the last resort, and no longer than it takes until standing still is within the constraint
 /// again. Where a collision on the way is as good as certain, the end decides, by its risk and then its distance; of
 /// equal ones the lowest index. If there is none, stopping, if that is known. Empty if it is not. Stopping is at once,
-/// or as what is in force does, whichever is less risk.
+/// or as what is in force does, whichever is the better by that order.
 /// @param parameters  that the candidates were made with
 /// Allocates: no, except inside FLANN. Threads: any number of callers.
 [[nodiscard]] std::optional<Retreat> chooseRetreat(const Candidates& candidates, const PlannerParameters& parameters);

@@ -49,7 +49,8 @@ struct RiskParameters {
   /// The view that answers need not know all that is near. Where it holds less than the vehicle around the place, what
   /// is near may lie just beside it: the newest view with room for the vehicle is asked as well. Where newer views
   /// could not answer (a hole among depths, say), they may all the same have measured what is near: the newest that
-  /// holds the place is asked as well. Without it, the paper's answer alone.
+  /// holds the place is asked as well, and no other, though it may be a frame without any depth. Without it, the
+  /// paper's answer alone.
   bool look_beside = true;
   /// Farther than this from the vehicle, a place that no view has room around may have anything beside it. Nearer, most
   /// places are such while it stands.

@@ -74,11 +74,7 @@ void writeCandidates(Text& text, const Explanation& explanation) {
 
 /// Below the sample's own line, in the same columns.
 void writeSecondLook(Text& text, std::string_view name, const SecondLook& look, const ChainSnapshot& snapshot) {
-  if (!look.asked) return;
-  if (!look.view_index) {
-    text.line("  {:>7}  {:>24}    {:<11}{:>10}", "", "", name, "unseen");
-    return;
-  }
+  if (!look.view_index) return;
   text.line("  {:>7}  {:>24}    {:<11}{:>10}{:>10}{:>12}{:>10}{:>10.2g}", "", "", name, *look.view_index,
             snapshot.views[*look.view_index].view->sequence(),
             look.nearest_m ? fmt::format("{:.2f}", *look.nearest_m) : "-", "", look.collision_probability);
@@ -101,6 +97,9 @@ void writeSamples(Text& text, std::string_view title, const std::vector<SampleEv
               sample.collision_probability, sample.risk, sample.in_bubble ? "  in the bubble" : "");
     writeSecondLook(text, "newer", sample.newer, snapshot);
     writeSecondLook(text, "beside", sample.beside, snapshot);
+    if (sample.beside.asked && !sample.beside.view_index) {
+      text.line("  {:>7}  {:>24}    {:<11}{:>10}", "", "", "beside", "unseen");
+    }
   }
 }
 

@@ -27,7 +27,7 @@ class Outcome(Enum):
 OUTCOMES = {
     "flying": Outcome.FLYING,
     "going round what is in the way": Outcome.GOING_ROUND,
-    "no better way is safe: keeping to the verified motion and its brake": Outcome.KEEPING,
+    "nothing new is better: keeping to the verified motion and its brake": Outcome.KEEPING,
     "at the goal": Outcome.AT_GOAL,
     "faster than the goal's top speed: slowing down": Outcome.SLOWING,
     "the goal is out of view: turning towards it": Outcome.TURNING,

@@ -68,6 +68,7 @@ TEST_F(DetourTest, WhoMakesProgressIsLeftAlone) {
   for (int i = 0; i < 200; ++i) {
     moveTo({0.02 * i, 0.0, 0.0});
     EXPECT_EQ(step(Reason::kFlying), 0.0);
+    EXPECT_EQ(step(Reason::kKeeping), 0.0);
   }
 }
 

@@ -97,6 +97,48 @@ TEST_F(RecedingHorizonOverAField, WhatIsWrongWithAStateStaysVisible) {
   EXPECT_EQ(horizon_.inForce()->stamp, flight_.now()) << "none of these plans is flown";
 }
 
+TEST_F(RecedingHorizonOverAField, WhatIsLeftOfTheMotionInForceIsACandidateWhileItIsFollowed) {
+  const Time start = flight_.now();
+  const Time now = start + kPeriod;
+  const auto candidatesAfter = [&](auto&& disturb) {
+    horizon_.release();
+    EXPECT_EQ(step(flight_.state(), start).candidates, kCandidateCount) << "nothing is in force";
+    VehicleState state = measuredAt(now, *horizon_.motionAt(now));
+    Time planned_for = now;
+    disturb(state, planned_for);
+    return horizon_.explain(flight_.snapshot(), state, goal_, planned_for).decision.candidates;
+  };
+  EXPECT_EQ(candidatesAfter([](VehicleState&, Time&) {}), kMostCandidates);
+  EXPECT_EQ(candidatesAfter([](VehicleState& state, Time&) { state.T_W_B.translation_m.y() += 1.0; }), kCandidateCount);
+  EXPECT_EQ(candidatesAfter([&](VehicleState& state, Time& planned_for) {
+              planned_for = start - kPeriod;
+              state.stamp = planned_for;
+            }),
+            kCandidateCount)
+      << "from before it began";
+  EXPECT_EQ(candidatesAfter([this](VehicleState&, Time&) { horizon_.release(); }), kCandidateCount);
+
+  PlannerParameters papers = test::flightParameters();
+  papers.stop_check = StopCheck::kPaper;
+  RecedingHorizon by_paper(papers);
+  (void)by_paper.step(flight_.snapshot(), flight_.state(), goal_, start);
+  EXPECT_EQ(
+      by_paper.explain(flight_.snapshot(), measuredAt(now, *by_paper.motionAt(now)), goal_, now).decision.candidates,
+      kCandidateCount);
+}
+
+/// Else its shorter and shorter rest would be the better stop, and it would neither look around nor move away.
+TEST(RecedingHorizon, AVehicleThatStandsKeepsToNothing) {
+  Flight flight(DrawnWorld{{test::Block{{6.0, -20.0, 0.0}, {7.0, 20.0, 12.0}}}}, {5.36, 0.0, 2.0}, 0.0);
+  int standing = 0;
+  for (const Decision& decision : flight.fly(goalAt({50.0, 0.0, 2.0}), 3.0)) {
+    if (decision.trajectory.atStart().velocity_m_s.norm() > 0.01) continue;
+    ++standing;
+    EXPECT_NE(decision.reason, Reason::kKeeping);
+  }
+  EXPECT_GT(standing, 10);
+}
+
 TEST_F(RecedingHorizonOverAField, WithoutANewPlanItStandsStillInTheEnd) {
   (void)step(flight_.state(), flight_.now());
   const Motion end = *horizon_.motionAt(flight_.now() + std::chrono::seconds(20));
