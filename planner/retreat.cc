@@ -38,13 +38,12 @@ std::tuple<bool, double, double, double> worth(const TrajectoryRisk& brake) {
 
 /// Stopping at once, or as what is in force does.
 Retreat bestStop(const Candidates& candidates, double max_risk) {
-  Retreat best{kBrake, candidates.assessBrake(kBrake)};
-  for (std::uint32_t index = kBrakeInForce; index < candidates.count(); ++index) {
-    const TrajectoryRisk brake = candidates.assessBrake(index);
-    const bool is_better = !isKnown(best.brake, max_risk) || worth(brake) > worth(best.brake);
-    if (isKnown(brake, max_risk) && is_better) best = Retreat{index, brake};
-  }
-  return best;
+  const Retreat at_once{kBrake, candidates.assessBrake(kBrake)};
+  if (candidates.count() <= kBrakeInForce) return at_once;
+  const Retreat in_force{kBrakeInForce, candidates.assessBrake(kBrakeInForce)};
+  if (!isKnown(in_force.brake, max_risk)) return at_once;
+  const bool is_better = !isKnown(at_once.brake, max_risk) || worth(in_force.brake) > worth(at_once.brake);
+  return is_better ? in_force : at_once;
 }
 
 }  // namespace

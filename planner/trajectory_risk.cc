@@ -132,7 +132,7 @@ SecondLook SpaceAhead::lookInto(const Place& place, const std::optional<std::uin
   SecondLook look;
   look.asked = true;
   if (!view_index) return look;
-  const Near near = nearTo(place, {Status::kPartial, view_index});
+  const Near near = nearTo(place, {Status::kPartial, view_index});  // whatever the status: what is near counts
   look.view_index = view_index;
   look.nearest_m = near.nearest_m;
   look.collision_probability = near.collision_probability;

@@ -51,7 +51,8 @@ class Space:
         found = search(self.steps, mean_B, covariance_B, up_B)
         nearest, collision = self._near(found, reach_m)
         if settings.look_beside:
-            newer_nearest, newer_collision = self._near(newest_holding(self.steps, mean_B, covariance_B, found), reach_m)
+            newer = newest_holding(self.steps, mean_B, covariance_B, found)
+            newer_nearest, newer_collision = self._near(newer, reach_m)
             nearest = np.minimum(nearest, newer_nearest)
             collision = np.maximum(collision, newer_collision)
             rows = np.flatnonzero(self._is_cramped(found))
