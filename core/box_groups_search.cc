@@ -195,8 +195,9 @@ class Search {
     for (int i = 0; i < kVisitedFirst && BoxOrder::bound(next) <= reach_before; ++i) {
       const std::size_t place = BoxOrder::place(next);
       next = BoxOrder::next(keys.data(), keys.size(), next);
-      visit(group * kGroupBoxes + place);
+      visit<Added::kTogether>(group * kGroupBoxes + place);
     }
+    nearest_.addCollected();
     const FloatVec reach = hn::Set(d, nearest_.reach());
     for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
       const FloatVec distance = hn::Load(d, &least_sq_m2[i]);
@@ -213,11 +214,18 @@ class Search {
         return leastDistance(indexed_.boxes.groups[group].bounds, lane);
       });
       groups = groups.subspan(opened);
-      candidates_.visitAll([this] { return nearest_.reach(); }, [this](std::size_t box) { visit(box); });
+      candidates_.visitAll([this] { return nearest_.reach(); },
+                           [this](std::size_t box) { visit<Added::kAtOnce>(box); });
     } while (!groups.empty());
   }
 
+  enum class Added {
+    kAtOnce,
+    kTogether,  ///< with others, by addCollected()
+  };
+
   /// Looks at the pixels of a box, given by number: those of its tile with its raw depths.
+  template <Added kAdded>
   HWY_INLINE void visit(std::size_t box) {
     const FloatTag d;
     const IndexTag di;
@@ -234,7 +242,7 @@ class Search {
     const std::span<const std::uint16_t> excluded = indexed_.in_range.excluded;
     const IndexVec below = hn::Set(di, group.raw_low[lane] - 1);
     const IndexVec above = hn::Set(di, group.raw_high[lane] + 1);
-    nearest_.addTile(tile * static_cast<std::uint32_t>(TileGrid::kTilePixels), [&](std::size_t i) {
+    const auto distanceAt = [&](std::size_t i) {
       const IndexVec raw = hn::PromoteTo(di, hn::Load(hn::Rebind<std::uint16_t, FloatTag>(), &pixels.raw[i]));
       auto counts = hn::And(hn::Gt(raw, below), hn::Lt(raw, above));
       for (const std::uint16_t value : excluded) counts = hn::AndNot(hn::Eq(raw, hn::Set(di, value)), counts);
@@ -244,7 +252,13 @@ class Search {
       const FloatVec dz = hn::Sub(p_z, z);
       const FloatVec sq = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
       return hn::IfThenElse(hn::RebindMask(d, counts), sq, hn::Set(d, kInfinity));
-    });
+    };
+    const std::uint32_t first_pixel = tile * static_cast<std::uint32_t>(TileGrid::kTilePixels);
+    if constexpr (kAdded == Added::kAtOnce) {
+      nearest_.addTile(first_pixel, distanceAt);
+    } else {
+      nearest_.collectTile(first_pixel, distanceAt);
+    }
   }
 
   const IndexedImage& indexed_;

@@ -22,11 +22,53 @@
 HWY_BEFORE_NAMESPACE();
 namespace nanomap::HWY_NAMESPACE {
 
+/// Of sixteen sets of pixels that have none in common, the least squared distance of each.
+class SetMinima {
+ public:
+  HWY_INLINE explicit SetMinima(float at_most_sq_m2) {
+    for (FloatVec& v : sq_m2_) v = hn::Set(FloatTag(), at_most_sq_m2);
+  }
+
+  /// @param set  the first of as many sets as a vector has lanes; a multiple of these
+  HWY_INLINE void add(std::size_t set, FloatVec sq_m2) { sq_m2_[set / kLanes] = hn::Min(sq_m2_[set / kLanes], sq_m2); }
+
+  /// The k-th least of them: the k-th nearest pixel is no farther. @param k  1 .. 16
+  [[nodiscard]] HWY_INLINE float kth(std::size_t k) const {
+    const FloatTag d;
+    const IndexTag di;
+    alignas(64) BoxLanes all;
+    for (std::size_t i = 0; i < kVectors; ++i) hn::Store(sq_m2_[i], d, &all[i * kLanes]);
+    FloatVec kth = hn::Set(d, std::numeric_limits<float>::infinity());
+    const IndexVec wanted = hn::Set(di, -static_cast<std::int32_t>(k));
+    for (const FloatVec candidate : sq_m2_) {
+      IndexVec not_farther = hn::Zero(di);  // counted downwards: a mask's lanes are -1
+      for (const float other : all) {
+        not_farther =
+            hn::Add(not_farther, hn::VecFromMask(di, hn::RebindMask(di, hn::Le(hn::Set(d, other), candidate))));
+      }
+      const auto enough = hn::RebindMask(d, hn::Not(hn::Gt(not_farther, wanted)));
+      kth = hn::Min(kth, hn::IfThenElse(enough, candidate, kth));
+    }
+    return leastOfPositive(kth);
+  }
+
+ private:
+  static constexpr std::size_t kVectors = kGroupBoxes / kLanes;
+
+  FloatVec sq_m2_[kVectors];
+};
+
 /// Squared distances of a tile's pixels, infinite where a pixel does not count.
 struct alignas(64) TileDistances {
   std::array<float, TileGrid::kTilePixels> sq_m2;
+  std::uint32_t first_pixel;
 
-  [[nodiscard]] HWY_INLINE FloatVec vector(std::size_t first) const { return hn::Load(FloatTag(), &sq_m2[first]); }
+  /// @param distanceAt  squared distances of the tile's pixels from a place on
+  template <class DistanceAt>
+  HWY_INLINE void assign(std::uint32_t first, DistanceAt distanceAt) {
+    for (std::size_t i = 0; i < sq_m2.size(); i += kLanes) hn::Store(distanceAt(i), FloatTag(), &sq_m2[i]);
+    first_pixel = first;
+  }
 
   /// The pixels within `limit`, one bit each.
   [[nodiscard]] HWY_INLINE std::uint64_t within(float limit_sq_m2) const {
@@ -38,30 +80,29 @@ struct alignas(64) TileDistances {
     return bits;
   }
 
-  /// At least the distance of the k-th nearest pixel, k up to sixteen: the k-th least of sixteen minima, each over four
-  /// pixels of its own.
-  [[nodiscard]] HWY_INLINE float boundOfKth(std::size_t k) const {
-    const FloatTag d;
-    const IndexTag di;
-    alignas(64) BoxLanes least;
-    for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
-      const FloatVec a = hn::Min(vector(i), vector(i + kGroupBoxes));
-      const FloatVec b = hn::Min(vector(i + 2 * kGroupBoxes), vector(i + 3 * kGroupBoxes));
-      hn::Store(hn::Min(a, b), d, &least[i]);
+  /// Every second pair of lines with its halves swapped: so any four by four pixels are of sixteen sets, as those are
+  /// that lie nearest together, and the k-th minimum is close to the k-th distance.
+  HWY_INLINE void addTo(SetMinima& minima) const {
+    constexpr std::size_t kPair = 2 * TileGrid::kTileEdge_px;
+    static_assert(kPair == kGroupBoxes && 4 * kPair == TileGrid::kTilePixels);
+    for (std::size_t set = 0; set < kPair; set += kLanes) {
+      const FloatVec upper = hn::Min(vector(set), withHalvesSwapped(set + kPair));
+      const FloatVec lower = hn::Min(vector(set + 2 * kPair), withHalvesSwapped(set + 3 * kPair));
+      minima.add(set, hn::Min(upper, lower));
     }
-    FloatVec kth = hn::Set(d, std::numeric_limits<float>::infinity());
-    const IndexVec wanted = hn::Set(di, -static_cast<std::int32_t>(k));
-    for (std::size_t i = 0; i < kGroupBoxes; i += kLanes) {
-      const FloatVec candidate = hn::Load(d, &least[i]);
-      IndexVec not_farther = hn::Zero(di);  // counted downwards: a mask's lanes are -1
-      for (const float other : least) {
-        not_farther =
-            hn::Add(not_farther, hn::VecFromMask(di, hn::RebindMask(di, hn::Le(hn::Set(d, other), candidate))));
-      }
-      const auto enough = hn::RebindMask(d, hn::Not(hn::Gt(not_farther, wanted)));
-      kth = hn::Min(kth, hn::IfThenElse(enough, candidate, kth));
+  }
+
+ private:
+  [[nodiscard]] HWY_INLINE FloatVec vector(std::size_t first) const { return hn::Load(FloatTag(), &sq_m2[first]); }
+
+  [[nodiscard]] HWY_INLINE FloatVec withHalvesSwapped(std::size_t first) const {
+    constexpr std::size_t kHalfLine = TileGrid::kTileEdge_px / 2;
+    if constexpr (kLanes <= kHalfLine) {
+      return vector(first ^ kHalfLine);
+    } else {
+      const auto from = hn::Xor(countingFrom(0), hn::Set(IndexTag(), static_cast<std::int32_t>(kHalfLine)));
+      return hn::TableLookupLanes(vector(first), hn::IndicesFromVec(FloatTag(), from));
     }
-    return leastOfPositive(kth);
   }
 };
 
@@ -78,13 +119,35 @@ class NearestMany {
   /// @param distanceAt  squared distances of the tile's pixels from a place on
   template <class DistanceAt>
   HWY_INLINE void addTile(std::uint32_t first_pixel, DistanceAt distanceAt) {
-    TileDistances distances;
-    for (std::size_t i = 0; i < TileGrid::kTilePixels; i += kLanes) {
-      hn::Store(distanceAt(i), FloatTag(), &distances.sq_m2[i]);
-    }
+    TileDistances& distances = collected_[0];
+    distances.assign(first_pixel, distanceAt);
     std::uint64_t places = distances.within(reach_sq_m2_);
-    if (static_cast<std::size_t>(std::popcount(places)) > k_) places &= distances.within(distances.boundOfKth(k_));
-    if (places != 0) insert(first_pixel, distances, places);
+    if (static_cast<std::size_t>(std::popcount(places)) > k_) {
+      SetMinima minima(reach_sq_m2_);
+      distances.addTo(minima);
+      places &= distances.within(minima.kth(k_));
+    }
+    if (places != 0) insert(distances, places);
+  }
+
+  /// Tiles before a reach is known, of which all but a few pixels would be inserted in vain: they wait for
+  /// addCollected(). @pre less than kCollected are waiting
+  template <class DistanceAt>
+  HWY_INLINE void collectTile(std::uint32_t first_pixel, DistanceAt distanceAt) {
+    collected_[collected_count_++].assign(first_pixel, distanceAt);
+  }
+
+  static constexpr std::size_t kCollected = 2;
+
+  HWY_INLINE void addCollected() {
+    SetMinima minima(reach_sq_m2_);
+    for (std::size_t i = 0; i < collected_count_; ++i) collected_[i].addTo(minima);
+    reach_sq_m2_ = minima.kth(k_);
+    for (std::size_t i = 0; i < collected_count_; ++i) {
+      const std::uint64_t places = collected_[i].within(reach_sq_m2_);
+      if (places != 0) insert(collected_[i], places);
+    }
+    collected_count_ = 0;
   }
 
   std::size_t copyTo(std::span<FoundPixel> out) const {
@@ -125,7 +188,7 @@ class NearestMany {
 
   /// Two at a time: a key is the least of what was in its place, of what was one place before or the lesser of the two,
   /// whichever is greater, and of what was two places before or the greater of the two.
-  HWY_INLINE void insert(std::uint32_t first_pixel, const TileDistances& distances, std::uint64_t places) {
+  HWY_INLINE void insert(const TileDistances& distances, std::uint64_t places) {
     const KeyTag d;
     const auto by_one = rotationBy(1);
     const auto by_two = rotationBy(2);
@@ -135,7 +198,7 @@ class NearestMany {
       if (places == 0) return keyOf(std::numeric_limits<float>::infinity(), kNoPixel);
       const auto place = static_cast<std::size_t>(std::countr_zero(places));
       places &= places - 1;
-      return keyOf(distances.sq_m2[place], first_pixel + static_cast<std::uint32_t>(place));
+      return keyOf(distances.sq_m2[place], distances.first_pixel + static_cast<std::uint32_t>(place));
     };
 
     KeyVec keys[kKeyVectors];
@@ -158,12 +221,14 @@ class NearestMany {
       }
     }
     for (std::size_t i = 0; i < kKeyVectors; ++i) hn::Store(keys[i], d, &keys_[i * kKeyLanes]);
-    reach_sq_m2_ = distanceOf(keys_[k_ - 1]);
+    reach_sq_m2_ = std::min(reach_sq_m2_, distanceOf(keys_[k_ - 1]));
   }
 
   std::size_t k_;
   float reach_sq_m2_;
   alignas(64) std::array<Key, kMaxNeighbours> keys_;  ///< ascending
+  std::array<TileDistances, kCollected> collected_;
+  std::size_t collected_count_ = 0;
 };
 
 }  // namespace nanomap::HWY_NAMESPACE

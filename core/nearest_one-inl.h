@@ -48,6 +48,13 @@ class NearestOne {
     pixel_ = hn::IfThenElse(better, pixel, pixel_);
   }
 
+  /// As addTile(): waiting for others would gain nothing.
+  template <class DistanceAt>
+  HWY_INLINE void collectTile(std::uint32_t first_pixel, DistanceAt distanceAt) {
+    addTile(first_pixel, distanceAt);
+  }
+  HWY_INLINE void addCollected() {}
+
   std::size_t copyTo(std::span<FoundPixel> out) const {
     const std::int32_t least = leastLane(bits_);
     const auto at_least = hn::Eq(bits_, hn::Set(IndexTag(), least));
