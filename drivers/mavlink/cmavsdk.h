@@ -55,8 +55,9 @@ void mavsdk_configuration_destroy(mavsdk_configuration_t configuration);
 mavsdk_t mavsdk_create(mavsdk_configuration_t configuration);
 void mavsdk_destroy(mavsdk_t mavsdk);
 int mavsdk_add_any_connection(mavsdk_t mavsdk, const char* url);
-/// With no time to wait: the autopilot if it has been discovered, else null.
-mavsdk_system_t mavsdk_first_autopilot(mavsdk_t mavsdk, double timeout_s);
+/// Those discovered so far; null if there is none. Both are the caller's: the array, and every system in it.
+mavsdk_system_t* mavsdk_get_systems(mavsdk_t mavsdk, std::size_t* count);
+void mavsdk_free_systems_array(mavsdk_system_t* systems);
 mavsdk_handle_t mavsdk_subscribe_outgoing_messages_json(mavsdk_t mavsdk, mavsdk_intercept_json_callback_t callback,
                                                         void* user_data);
 void mavsdk_unsubscribe_outgoing_messages_json(mavsdk_t mavsdk, mavsdk_handle_t handle);
@@ -65,6 +66,7 @@ void mavsdk_log_subscribe(mavsdk_log_callback_t callback, void* user_data);
 void mavsdk_log_unsubscribe();
 
 std::uint32_t mavsdk_system_get_system_id(mavsdk_system_t system);
+bool mavsdk_system_has_autopilot(mavsdk_system_t system);
 void mavsdk_system_enable_timesync(mavsdk_system_t system);
 void mavsdk_system_destroy(mavsdk_system_t system);
 

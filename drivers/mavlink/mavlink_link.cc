@@ -16,6 +16,7 @@ namespace nanomap {
 namespace {
 
 constexpr std::uint32_t kAutopilotComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
+constexpr std::uint8_t kNoSystem = 0;             // MAVLink's ids are 1 .. 255
 constexpr Duration kHeartbeatPeriod = std::chrono::seconds(1);
 
 template <auto Destroy>
@@ -42,6 +43,16 @@ class Interception {
   mavsdk_t mavsdk_;
   mavsdk_handle_t handle_;
 };
+
+/// All that MAVSDK has heard of so far.
+std::vector<System> systemsOf(mavsdk_t mavsdk) {
+  std::size_t count = 0;
+  const std::unique_ptr<mavsdk_system_t, Destroyer<mavsdk_free_systems_array>> found(
+      mavsdk_get_systems(mavsdk, &count));
+  std::vector<System> systems;
+  for (std::size_t i = 0; found && i < count; ++i) systems.emplace_back(found.get()[i]);
+  return systems;
+}
 
 constexpr int kBindError = 3;  // of MAVSDK's connection results
 
@@ -95,6 +106,7 @@ class MavlinkLink::Session {
       : now_(std::move(now)),
         wanted_streams_(wantedStreams(parameters.pose_rate_hz)),
         monitor_(parameters.heartbeat_timeout),
+        autopilot_{.system_id = parameters.system_id},
         mavsdk_(createMavsdk(parameters)),
         interception_(mavsdk_.get(), &Session::onOutgoing, this) {
     const int result = mavsdk_add_any_connection(mavsdk_.get(), parameters.url.c_str());
@@ -169,8 +181,9 @@ class MavlinkLink::Session {
     return monitor_.takePose();
   }
 
-  [[nodiscard]] std::optional<std::uint8_t> autopilotSystem() const {
-    return direct_ ? std::optional(autopilot_.system_id) : std::nullopt;
+  [[nodiscard]] std::optional<std::uint8_t> otherAutopilot() const {
+    const std::uint8_t system = other_autopilot_;
+    return system == kNoSystem ? std::nullopt : std::optional(system);
   }
 
   SendResult requestParameter(const std::string& name) {
@@ -205,10 +218,17 @@ class MavlinkLink::Session {
   using Counter = std::atomic<std::uint64_t>;
 
   bool discover() {
-    constexpr double kDoNotWait = 0.0;
-    system_.reset(mavsdk_first_autopilot(mavsdk_.get(), kDoNotWait));
+    for (System& system : systemsOf(mavsdk_.get())) {
+      if (!mavsdk_system_has_autopilot(system.get())) continue;
+      const auto id = static_cast<std::uint8_t>(mavsdk_system_get_system_id(system.get()));
+      if (id == autopilot_.system_id) {
+        system_ = std::move(system);
+      } else {
+        other_autopilot_ = id;
+      }
+    }
     if (!system_) return false;
-    autopilot_.system_id = static_cast<std::uint8_t>(mavsdk_system_get_system_id(system_.get()));
+    other_autopilot_ = kNoSystem;
     mavsdk_system_enable_timesync(system_.get());
     direct_.reset(mavsdk_mavlink_direct_create(system_.get()));
     subscribe<HeartbeatMessage>("HEARTBEAT");
@@ -313,7 +333,8 @@ class MavlinkLink::Session {
   Time next_heartbeat_{};
   Time next_request_{};
   std::uint16_t text_id_ = 0;
-  MavlinkAddress autopilot_;
+  const MavlinkAddress autopilot_;
+  std::atomic<std::uint8_t> other_autopilot_ = kNoSystem;
 
   // Destroyed in the reverse order, as MAVSDK wants it; its threads end with the first of them.
   Mavsdk mavsdk_;
@@ -340,7 +361,7 @@ SendResult MavlinkLink::sendText(Severity severity, std::string_view text) {
 AutopilotState MavlinkLink::autopilot() const { return session_->autopilot(); }
 std::optional<AutopilotPose> MavlinkLink::takePose() { return session_->takePose(); }
 LinkCounters MavlinkLink::counters() const { return session_->counters(); }
-std::optional<std::uint8_t> MavlinkLink::autopilotSystem() const { return session_->autopilotSystem(); }
+std::optional<std::uint8_t> MavlinkLink::otherAutopilot() const { return session_->otherAutopilot(); }
 SendResult MavlinkLink::requestParameter(const std::string& name) { return session_->requestParameter(name); }
 std::optional<double> MavlinkLink::parameter(const std::string& name) const { return session_->parameter(name); }
 

@@ -31,11 +31,10 @@ class PortTaken : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The MAVLink connection to one autopilot, through MAVSDK. A message is sent when and only when send() is called: no
-/// setpoint is ever repeated, and one that was held up for kMaxSetpointAge is dropped. The vehicle's mode and its
-/// arming are the pilot's: nothing here changes them.
-/// Threads: keepAlive() and send() from one thread, which they cost the time to queue a message; the rest from any.
-/// MAVSDK receives and sends on threads of its own.
+/// The MAVLink connection to the vehicle's autopilot, through MAVSDK. A message is sent when and only when send() is
+/// called: no setpoint is ever repeated, and one that was held up for kMaxSetpointAge is dropped. The vehicle's mode
+/// and its arming are the pilot's: nothing here changes them. Threads: keepAlive() and send() from one thread, which
+/// they cost the time to queue a message; the rest from any. MAVSDK receives and sends on threads of its own.
 class MavlinkLink : public AutopilotLink {
  public:
   using Clock = std::function<Time()>;
@@ -56,8 +55,9 @@ class MavlinkLink : public AutopilotLink {
   [[nodiscard]] std::optional<AutopilotPose> takePose() override;
   [[nodiscard]] LinkCounters counters() const;
 
-  /// The system id of the autopilot; empty until it is discovered. Threads: that of keepAlive().
-  [[nodiscard]] std::optional<std::uint8_t> autopilotSystem() const;
+  /// The system id of an autopilot that is heard and told nothing, for it is not the vehicle's
+  /// (LinkParameters::system_id); empty if there is none, or the vehicle's has been discovered.
+  [[nodiscard]] std::optional<std::uint8_t> otherAutopilot() const;
 
   /// Asks for a parameter of the autopilot, which may not answer. Nothing here ever sets one. Threads: that of
   /// keepAlive().

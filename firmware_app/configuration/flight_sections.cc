@@ -13,8 +13,9 @@ Section mavlinkSection() {
            "url", "udpin://0.0.0.0:14540, udpout://host:port, tcpout://host:port or serial:///dev/ttyACM0:921600.",
            TextRule{255}, [](auto& c) -> auto& { return c.mavlink.link.url; }),
        integerKey(
-           "system_id", "The vehicle's: a companion computer is a part of it.", {1, 255},
-           [](auto& c) -> auto& { return c.mavlink.link.system_id; }),
+           "system_id",
+           "The vehicle's: a companion computer is a part of it, and tells no other one's autopilot anything.",
+           {1, 255}, [](auto& c) -> auto& { return c.mavlink.link.system_id; }),
        integerKey(
            "component_id", "Ours; 196 is MAV_COMP_ID_OBSTACLE_AVOIDANCE.", {1, 255},
            [](auto& c) -> auto& { return c.mavlink.link.component_id; }),

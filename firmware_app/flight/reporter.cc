@@ -96,9 +96,19 @@ void Reporter::tell(Time now) {
   if (!encodeInto(health, encoded_) || !parts_.network.publish(health_channel_, encoded_)) {
     spdlog::warn("the health report was not sent over LCM");
   }
+  tellOfOtherAutopilot();
   const std::string line = statusLine(health);
   spdlog::info("{}", line);
   service_.setStatus(line);
+}
+
+/// Else one would wait for an autopilot that sends all the time.
+void Reporter::tellOfOtherAutopilot() {
+  const auto other = parts_.link.otherAutopilot();
+  if (other == other_autopilot_told_) return;
+  other_autopilot_told_ = other;
+  if (!other) return;
+  spdlog::warn("the autopilot of system {} is heard, which mavlink.system_id is not: it is told nothing", *other);
 }
 
 void Reporter::tellOfRecording(NamedCounters& others) {

@@ -41,6 +41,7 @@ class Reporter {
   void tell(Time now);
   [[nodiscard]] NamedCounters others();
   void tellOfRecording(NamedCounters& others);
+  void tellOfOtherAutopilot();
 
   ReportedParts parts_;
   std::string health_channel_;
@@ -49,6 +50,7 @@ class Reporter {
   ServiceManager service_;
   RecorderReport recording_;
   std::string recording_fault_told_;
+  std::optional<std::uint8_t> other_autopilot_told_;
   std::vector<std::uint8_t> encoded_;
 };
 

@@ -45,9 +45,9 @@ def plain(value):
 class Endpoint:
     """One who is told and listened to."""
 
-    def __init__(self, transport, rules_name: str, true: bool):
+    def __init__(self, transport, system: int, rules_name: str, true: bool):
         self.transport = transport
-        self.link = mavlink.MAVLink(transport, srcSystem=1, srcComponent=mavlink.MAV_COMP_ID_AUTOPILOT1)
+        self.link = mavlink.MAVLink(transport, srcSystem=system, srcComponent=mavlink.MAV_COMP_ID_AUTOPILOT1)
         self.telemetry = streams.Telemetry(self.link, rules_name, true)
         self._parser = mavlink.MAVLink(None)
         self._parser.robust_parsing = True
@@ -61,7 +61,7 @@ class Endpoint:
 
 class Autopilot:
     def __init__(self, rules_name: str, loss_s: float | None, vehicle: Vehicle, transport, truth_transport=None,
-                 parameters: dict[str, float] | None = None):
+                 parameters: dict[str, float] | None = None, system: int = 1):
         """`truth_transport` leads to who is told where the vehicle really is; it commands nothing. `parameters` are
         told as given, but not obeyed."""
         rules, usual_loss_s = RULES[rules_name]
@@ -73,10 +73,10 @@ class Autopilot:
         self._start = time.monotonic()
         self._target = None
         self._telemetry_on = True
-        self._companion = Endpoint(transport, rules_name, true=False)
+        self._companion = Endpoint(transport, system, rules_name, true=False)
         self._endpoints = [self._companion]
         if truth_transport:
-            self._endpoints.append(Endpoint(truth_transport, rules_name, true=True))
+            self._endpoints.append(Endpoint(truth_transport, system, rules_name, true=True))
         self._stepped = self._start
 
     def boot_ms(self) -> int:
@@ -210,6 +210,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rules", choices=RULES, default="px4")
     parser.add_argument("--loss", type=float, metavar="S", help="time without setpoints that ends external control")
+    parser.add_argument("--system", type=int, default=1, metavar="ID", help="be this MAVLink system, 1 .. 255")
     wire = parser.add_mutually_exclusive_group(required=True)
     wire.add_argument("--udp", type=int, metavar="PORT", help="send to a companion that listens at this port")
     wire.add_argument("--tcp", action="store_true", help="listen for a companion")
@@ -227,7 +228,7 @@ def main() -> None:
     vehicle = Vehicle(arguments.altitude, math.radians(arguments.heading))
     with contextlib.suppress(KeyboardInterrupt):
         Autopilot(arguments.rules, arguments.loss, vehicle, transport, truth_transport,
-                  parameters).run()
+                  parameters, arguments.system).run()
 
 
 if __name__ == "__main__":

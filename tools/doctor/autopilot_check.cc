@@ -24,6 +24,14 @@ Findings checkAutopilot(const Facts& facts) {
   const LinkParameters& link = facts.configuration.mavlink.link;
   if (!autopilot.fault.empty()) return {judgeNoConnection(facts)};
   const AutopilotState& state = autopilot.state;
+  if (!state.heartbeat_age && autopilot.other_system) {
+    return {failure(kSubject,
+                    fmt::format("the autopilot of system {} is heard, but mavlink.system_id = {}",
+                                *autopilot.other_system, link.system_id),
+                    fmt::format("mavlink.system_id = {} if that is the vehicle's: a companion computer is a part of "
+                                "its vehicle, and tells no other one anything",
+                                *autopilot.other_system))};
+  }
   if (!state.heartbeat_age) {
     return {failure(kSubject, fmt::format("no heartbeat of an autopilot on {}", link.url),
                     "mavlink.url: where it sends to a companion computer. PX4: MAV_1_CONFIG and its rate for a serial "
@@ -39,11 +47,6 @@ Findings checkAutopilot(const Facts& facts) {
   if (state.kind != AutopilotKind::kPx4 && state.kind != AutopilotKind::kArduPilot) {
     findings.push_back(failure(kSubject, fmt::format("it is {}", toString(state.kind)), "PX4 or ArduPilot is needed"));
   }
-  if (autopilot.system_id && *autopilot.system_id != link.system_id) {
-    findings.push_back(warning(
-        kSubject, fmt::format("it is system {}, mavlink.system_id = {}", *autopilot.system_id, link.system_id),
-        fmt::format("mavlink.system_id = {}: a companion computer is a part of its vehicle", *autopilot.system_id)));
-  }
   if (!state.position_age || !state.attitude_age) {
     findings.push_back(
         failure(kSubject,
@@ -53,10 +56,10 @@ Findings checkAutopilot(const Facts& facts) {
                 "ATTITUDE_QUATERNION when asked"));
   }
   if (findings.empty()) {
-    findings.push_back(ok(
-        kSubject, fmt::format("{}, system {}, {}, heartbeat {:.1f} s ago, position {:.0f} ms ago", toString(state.kind),
-                              autopilot.system_id.value_or(0), state.armed ? "armed" : "disarmed",
-                              toSeconds(*state.heartbeat_age), toSeconds(*state.position_age) * 1e3)));
+    findings.push_back(
+        ok(kSubject, fmt::format("{}, system {}, {}, heartbeat {:.1f} s ago, position {:.0f} ms ago",
+                                 toString(state.kind), link.system_id, state.armed ? "armed" : "disarmed",
+                                 toSeconds(*state.heartbeat_age), toSeconds(*state.position_age) * 1e3)));
   }
   return findings;
 }

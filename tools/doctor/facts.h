@@ -49,7 +49,7 @@ struct AutopilotFacts {
   std::string fault;        ///< why there is no connection, in words; empty: there is one
   bool port_taken = false;  ///< that is why
   AutopilotState state;
-  std::optional<std::uint8_t> system_id;
+  std::optional<std::uint8_t> other_system;  ///< of an autopilot that is heard, but not the vehicle's
   /// By name. Empty: it did not answer.
   std::map<std::string, std::optional<double>> parameters;
 };

@@ -49,7 +49,7 @@ class AutopilotSurvey {
   [[nodiscard]] AutopilotFacts finish() && {
     if (!link_) return std::move(facts_);
     facts_.state = link_->autopilot();
-    facts_.system_id = link_->autopilotSystem();
+    facts_.other_system = link_->otherAutopilot();
     for (const std::string& name : parametersOf(facts_.state.kind)) {
       facts_.parameters[name] = link_->parameter(name);
     }

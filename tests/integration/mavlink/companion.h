@@ -19,8 +19,9 @@ enum class Wire { kUdp, kTcp, kSerial };
 /// An autopilot and our side of the link to it, which is kept alive while we wait for something.
 class Companion {
  public:
-  explicit Companion(Wire wire, const std::vector<std::string>& more_arguments = {})
-      : autopilot(argumentsOf(wire, more_arguments)), link(parametersOf(autopilot.url()), monotonicNow) {}
+  /// @param system_id  of our vehicle; the autopilot's is 1 unless the arguments say `--system`
+  explicit Companion(Wire wire, const std::vector<std::string>& more_arguments = {}, std::uint8_t system_id = 1)
+      : autopilot(argumentsOf(wire, more_arguments)), link(parametersOf(autopilot.url(), system_id), monotonicNow) {}
 
   static constexpr Duration kHeartbeatTimeout = std::chrono::milliseconds(2500);
 
@@ -68,9 +69,10 @@ class Companion {
     return arguments;
   }
 
-  static LinkParameters parametersOf(const std::string& url) {
+  static LinkParameters parametersOf(const std::string& url, std::uint8_t system_id) {
     LinkParameters parameters;
     parameters.url = url;
+    parameters.system_id = system_id;
     parameters.heartbeat_timeout = kHeartbeatTimeout;
     return parameters;
   }

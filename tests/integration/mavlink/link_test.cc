@@ -103,6 +103,25 @@ TEST_P(EveryWire, IsSilentWhenWeStopSendingSoThatTheFailsafeActs) {
   EXPECT_EQ(companion.link.counters().stale_setpoints, 0U);
 }
 
+TEST(Link, LeavesTheAutopilotOfAnotherVehicleAlone) {
+  Companion companion(Wire::kUdp, {"--system", "3"});
+  EXPECT_FALSE(companion.link.otherAutopilot());
+  ASSERT_TRUE(companion.until([&] { return companion.link.otherAutopilot() == 3; }));
+  EXPECT_EQ(companion.link.send(target()), SendResult::kNoAutopilot);
+  EXPECT_FALSE(companion.link.autopilot().heartbeat_age);
+}
+
+TEST(Link, IsToTheVehicleThatItIsConfiguredFor) {
+  Companion companion(Wire::kUdp, {"--system", "3"}, 3);
+  ASSERT_TRUE(companion.untilLinked());
+  EXPECT_FALSE(companion.link.otherAutopilot());
+  ASSERT_EQ(companion.link.send(target()), SendResult::kSent);
+  ASSERT_TRUE(companion.untilReceived("SET_POSITION_TARGET_LOCAL_NED"));
+  const json message = companion.autopilot.messages("SET_POSITION_TARGET_LOCAL_NED").front();
+  EXPECT_EQ(message.at("system"), 3);
+  EXPECT_EQ(message.at("fields").at("target_system"), 3);
+}
+
 TEST(Link, DropsASetpointThatWasHeldUp) {
   Companion companion(Wire::kUdp);
   ASSERT_TRUE(companion.untilLinked());

@@ -29,7 +29,8 @@ CONSTANTS = {
 CTYPES = {
     "void": None, "int": ctypes.c_int, "double": ctypes.c_double, "bool": ctypes.c_bool,
     "std::uint8_t": ctypes.c_uint8, "std::uint32_t": ctypes.c_uint32, "const char*": ctypes.c_char_p,
-    "void*": ctypes.c_void_p,
+    "void*": ctypes.c_void_p, "mavsdk_system_t*": ctypes.POINTER(ctypes.c_void_p),
+    "std::size_t*": ctypes.POINTER(ctypes.c_size_t),
     "mavsdk_log_callback_t": mavsdk.logging.LogCallback,
     "mavsdk_intercept_json_callback_t": types.InterceptJsonCallback,
     "mavsdk_mavlink_direct_message_callback_t": mavlink_direct.MessageCallback,
@@ -90,7 +91,7 @@ def check_callbacks(header: str) -> list[str]:
 
 def check_functions(header: str, library) -> list[str]:
     faults = []
-    functions = re.findall(r"^([\w:]+) (mavsdk_\w+)\(([^()]*)\);", header, re.MULTILINE)
+    functions = re.findall(r"^([\w:]+\*?) (mavsdk_\w+)\(([^()]*)\);", header, re.MULTILINE)
     if len(functions) != len(re.findall(r"\bmavsdk_\w+\(", header)):
         faults.append("a declaration was not understood")
     for result, name, parameters in functions:

@@ -23,7 +23,6 @@ Facts withAutopilot(AutopilotKind kind) {
   Facts facts = healthyFacts();
   AutopilotFacts& autopilot = facts.autopilot.emplace();
   autopilot.state = {.kind = kind, .heartbeat_age = 100ms, .position_age = 10ms, .attitude_age = 10ms, .linked = true};
-  autopilot.system_id = 1;
   return facts;
 }
 
@@ -114,14 +113,15 @@ TEST(AutopilotCheck, EachStageOfTheLinkIsTold) {
   EXPECT_EQ(verdictOf(checkAutopilot(withAutopilot(AutopilotKind::kOther))), Verdict::kFailure);
 
   Facts facts = withAutopilot(AutopilotKind::kArduPilot);
-  facts.autopilot->system_id = 3;
-  EXPECT_THAT(fixesOf(checkAutopilot(facts)), HasSubstr("mavlink.system_id = 3"));
   facts.autopilot->state.position_age.reset();
   EXPECT_EQ(verdictOf(checkAutopilot(facts)), Verdict::kFailure);
   facts.autopilot->state.linked = false;
   EXPECT_THAT(checkAutopilot(facts)[0].seen, HasSubstr("0.1 s old"));
   facts.autopilot->state = {};
   EXPECT_THAT(checkAutopilot(facts)[0].seen, HasSubstr("no heartbeat"));
+  facts.autopilot->other_system = 3;
+  EXPECT_EQ(verdictOf(checkAutopilot(facts)), Verdict::kFailure);
+  EXPECT_THAT(fixesOf(checkAutopilot(facts)), HasSubstr("mavlink.system_id = 3"));
 }
 
 TEST(AutopilotCheck, PortOfTheFlightProcessIsNoFailure) {
