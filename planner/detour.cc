@@ -27,6 +27,13 @@ constexpr double kMoving_m_s = 0.5;
 /// A goal that is turned is at least this far away: it is steered for, and never reached, as every plan turns it anew.
 constexpr double kLeastReach_m = 10.0;
 
+/// On a detour a vehicle flies so fast at most that the direction to its goal turns half as fast as its course can:
+/// faster, it is carried past a goal nearby, and circles it.
+constexpr double kOfTurnRate = 0.5;
+
+/// Nor need it creep, however near the goal is.
+constexpr double kLeastSpeed_m_s = 1.0;
+
 /// Plans that are farther apart do not make for a larger turn.
 constexpr Duration kLongestStep = std::chrono::milliseconds(200);
 
@@ -72,7 +79,11 @@ Goal Detour::steer(const VehicleState& start, const Goal& goal) {
   }
   goal_ = goal;
   last_stamp_ = start.stamp;
-  return isTurned() ? turnedAbout(start.T_W_B.translation_m, attempt_->side * attempt_->turn_rad, goal) : goal;
+  if (!isTurned()) return goal;
+  Goal turned = turnedAbout(start.T_W_B.translation_m, attempt_->side * attempt_->turn_rad, goal);
+  const double turns_in_time_m_s = kOfTurnRate * parameters_.turn_rate_rad_s * to_goal_W.head<2>().norm();
+  turned.top_speed_m_s = std::min(goal.top_speed_m_s, std::max(turns_in_time_m_s, kLeastSpeed_m_s));
+  return turned;
 }
 
 void Detour::watchProgress(Time now, Duration elapsed, double distance_m) {

@@ -64,6 +64,30 @@ TEST_F(DetourTest, TheGoalIsTurnedAboutTheVehicleAtItsHeight) {
   EXPECT_EQ(steered.sequence, goal_.sequence);
 }
 
+/// Else it is carried past its goal, and circles it.
+TEST_F(DetourTest, NearItsGoalItFliesNoFasterThanItCanTurn) {
+  goal_ = goalAt({50.0, 0.0, 2.0}, 9.0);
+  const auto topSpeedAt = [&](double distance_m) {
+    moveTo({50.0 - distance_m, 0.0, 2.0});
+    return detour_.steer(state_, goal_).top_speed_m_s;
+  };
+  const auto beginAt = [&](double distance_m) {
+    detour_ = Detour(parameters_);
+    EXPECT_EQ(topSpeedAt(distance_m), 9.0) << "it is not on its way round yet";
+    (void)run(4s, Reason::kBlocked);
+    EXPECT_TRUE(detour_.isTurned());
+  };
+  beginAt(50.0);
+  EXPECT_EQ(topSpeedAt(50.0), 9.0);
+  beginAt(10.0);
+  EXPECT_NEAR(topSpeedAt(10.0), 0.5 * parameters_.turn_rate_rad_s * 10.0, 1e-9);
+  EXPECT_NEAR(topSpeedAt(8.0), 0.5 * parameters_.turn_rate_rad_s * 8.0, 1e-9);
+  beginAt(4.0);
+  EXPECT_EQ(topSpeedAt(1.5), 1.0) << "it need not creep";
+  goal_.top_speed_m_s = 0.8;
+  EXPECT_EQ(topSpeedAt(1.5), 0.8);
+}
+
 TEST_F(DetourTest, WhoMakesProgressIsLeftAlone) {
   for (int i = 0; i < 200; ++i) {
     moveTo({0.02 * i, 0.0, 0.0});
