@@ -21,10 +21,10 @@ struct IndexedImage {
   float depth_unit_m;
 };
 
-/// An indexed pixel, by tile and place in it.
+/// An indexed pixel, by tile and place in it. Nothing until assigned: every query has room for sixteen of them.
 struct FoundPixel {
-  float distance_sq_m2 = 0.0F;
-  std::uint32_t pixel = 0;  ///< tile * TileGrid::kTilePixels + place in the tile
+  float distance_sq_m2;
+  std::uint32_t pixel;  ///< tile * TileGrid::kTilePixels + place in the tile
 };
 
 /// Fills `out` with the nearest points to `p_C` whose squared distance, in float arithmetic over (x, y, z) in that
