@@ -62,7 +62,10 @@ Task taskOf(const PlannerParameters& parameters, const PrimitiveLibrary& library
       inputs.snapshot.views.empty() ? Reason::kNoView : goalFault(inputs.goal, inputs.state);
   Goal goal;
   goal.position_W_m = at_start_W.position_m;
-  if (!hold) goal = *inputs.goal;
+  if (!hold) {
+    goal = *inputs.goal;
+    goal.top_speed_m_s = std::min(goal.top_speed_m_s, parameters.limits.top_speed_m_s);
+  }
   return {at_start_W, yaw_W_rad, hold, goal,
           Candidates(parameters, library, inputs.snapshot, goal, inputs.now, at_start_W, yaw_W_rad, inputs.in_force)};
 }

@@ -43,6 +43,7 @@ void check(const MotionLimits& limits) {
   requireAtLeast("limits.horizontal_at_full_m_s2", limits.horizontal_at_full_m_s2, "limits.horizontal_at_rest_m_s2",
                  limits.horizontal_at_rest_m_s2);
   requirePositive("limits.full_speed_m_s", limits.full_speed_m_s);
+  requirePositive("limits.top_speed_m_s", limits.top_speed_m_s);
   requirePositive("limits.vertical_m_s2", limits.vertical_m_s2);
   requirePositive("limits.ramp_s", limits.ramp_s);
   requirePositive("limits.jerk_m_s3", limits.jerk_m_s3);

@@ -62,6 +62,9 @@ Section limitsSection() {
            "full_speed_m_s", "Speed from which on the vehicle may be pushed hardest.", {0.0, 100.0, true},
            [](auto& c) -> auto& { return c.planner.limits.full_speed_m_s; }),
        numberKey(
+           "top_speed_m_s", "No goal is flown faster, whatever top speed it comes with.", {0.0, 100.0, true},
+           [](auto& c) -> auto& { return c.planner.limits.top_speed_m_s; }),
+       numberKey(
            "vertical_m_s2", "Largest vertical acceleration.", kAcceleration,
            [](auto& c) -> auto& { return c.planner.limits.vertical_m_s2; }),
        numberKey(

@@ -43,6 +43,15 @@ TEST_P(EmptyField, TakesOffFromHoverAndFliesAtTopSpeed) {
 
 INSTANTIATE_TEST_SUITE_P(Heights, EmptyField, testing::Values(1.5, 2.0, 4.0));
 
+TEST(Flight, NoGoalIsFlownFasterThanTheVehicleMayFly) {
+  PlannerParameters parameters = test::flightParameters();
+  parameters.limits.top_speed_m_s = 3.0;
+  Flight flight(DrawnWorld{}, {0.0, 0.0, 2.0}, 0.0, parameters);
+  (void)flight.fly(goalAt({100.0, 0.0, 2.0}, 50.0), 6.0);
+  EXPECT_GT(flight.fastest_m_s(), 2.5);
+  EXPECT_LT(flight.fastest_m_s(), 4.0);
+}
+
 TEST(Flight, StopsAtTheGoalAndStaysThere) {
   Flight flight(DrawnWorld{}, {0.0, 0.0, 2.0}, 0.0);
   const Vec3 goal_W(8.0, 1.0, 2.5);

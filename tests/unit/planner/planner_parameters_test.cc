@@ -26,6 +26,7 @@ TEST(PlannerParameters, ABadOneIsNamed) {
   const Case cases[] = {
       {"limits.horizontal_at_rest_m_s2", [](auto& p) { p.limits.horizontal_at_rest_m_s2 = 0.0; }},
       {"limits.horizontal_at_full_m_s2", [](auto& p) { p.limits.horizontal_at_full_m_s2 = 1.0; }},
+      {"limits.top_speed_m_s", [](auto& p) { p.limits.top_speed_m_s = 0.0; }},
       {"limits.vertical_m_s2", [&](auto& p) { p.limits.vertical_m_s2 = nan; }},
       {"limits.ramp_s", [](auto& p) { p.limits.ramp_s = -0.2; }},
       {"limits.jerk_m_s3", [](auto& p) { p.limits.jerk_m_s3 = 0.0; }},
