@@ -12,6 +12,7 @@ struct HeartbeatMessage {
   std::uint8_t autopilot = 0;  ///< MAV_AUTOPILOT
   std::uint8_t base_mode = 0;  ///< MAV_MODE_FLAG
   std::uint32_t custom_mode = 0;
+  std::uint8_t type = 0;  ///< MAV_TYPE
 };
 
 struct LocalPositionMessage {

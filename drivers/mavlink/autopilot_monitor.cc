@@ -1,6 +1,8 @@
 #include "drivers/mavlink/autopilot_monitor.h"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "core/level_frame.h"
 #include "drivers/mavlink/turn.h"
@@ -17,16 +19,23 @@ AutopilotKind kindOf(std::uint8_t mav_autopilot) {
   return mav_autopilot == kArduPilotMega ? AutopilotKind::kArduPilot : AutopilotKind::kOther;
 }
 
-/// The mode in which the autopilot obeys setpoints. ArduPilot numbers modes by vehicle: these are a copter's.
-bool isExternalControl(AutopilotKind kind, std::uint8_t base_mode, std::uint32_t custom_mode) {
+/// What ArduCopter flies, of MAV_TYPE: helicopters, and multicopters of three to twelve rotors.
+bool isCopter(std::uint8_t mav_type) {
+  constexpr std::uint8_t kCopters[] = {2, 3, 4, 13, 14, 15, 29, 35};
+  return std::ranges::find(kCopters, mav_type) != std::end(kCopters);
+}
+
+/// The mode in which the autopilot obeys setpoints. ArduPilot numbers modes by vehicle: a rover's 4 is its HOLD.
+bool isExternalControl(AutopilotKind kind, const HeartbeatMessage& heartbeat) {
   constexpr std::uint8_t kCustomModeEnabled = 1;
   constexpr std::uint32_t kPx4MainModeShift = 16;
   constexpr std::uint32_t kPx4MainModeMask = 0xFF;
   constexpr std::uint32_t kPx4Offboard = 6;
   constexpr std::uint32_t kCopterGuided = 4;
-  if ((base_mode & kCustomModeEnabled) == 0) return false;
-  if (kind == AutopilotKind::kPx4) return ((custom_mode >> kPx4MainModeShift) & kPx4MainModeMask) == kPx4Offboard;
-  return kind == AutopilotKind::kArduPilot && custom_mode == kCopterGuided;
+  if ((heartbeat.base_mode & kCustomModeEnabled) == 0) return false;
+  const std::uint32_t mode = heartbeat.custom_mode;
+  if (kind == AutopilotKind::kPx4) return ((mode >> kPx4MainModeShift) & kPx4MainModeMask) == kPx4Offboard;
+  return kind == AutopilotKind::kArduPilot && isCopter(heartbeat.type) && mode == kCopterGuided;
 }
 
 LandedState landedStateOf(std::uint8_t mav_landed_state) {
@@ -76,7 +85,7 @@ void AutopilotMonitor::receive(const HeartbeatMessage& message, Time arrival) {
   last_.armed = (message.base_mode & kArmed) != 0;
   last_.simulated = (message.base_mode & kHardwareInTheLoop) != 0;
   last_.custom_mode = message.custom_mode;
-  last_.external_control = isExternalControl(last_.kind, message.base_mode, message.custom_mode);
+  last_.external_control = isExternalControl(last_.kind, message);
   if (had_other_mode && last_.external_control) ++last_.external_control_entries;
   heartbeat_arrival_ = arrival;
 }

@@ -180,6 +180,7 @@ std::optional<HeartbeatMessage> fromJson(std::string_view fields) {
   message.autopilot = reader.integer<std::uint8_t>("autopilot");
   message.base_mode = reader.integer<std::uint8_t>("base_mode");
   message.custom_mode = reader.integer<std::uint32_t>("custom_mode");
+  message.type = reader.integer<std::uint8_t>("type");
   return reader.finish(message);
 }
 

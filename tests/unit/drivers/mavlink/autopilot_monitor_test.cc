@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 constexpr Time kStart = Time(50s);
 constexpr HeartbeatMessage kPx4Hold{12, 1 | 128, 4U << 16 | 3U << 24};
 constexpr HeartbeatMessage kPx4Offboard{12, 1 | 128, 6U << 16};
-constexpr HeartbeatMessage kCopterLoiter{3, 1, 5};
-constexpr HeartbeatMessage kCopterGuided{3, 1, 4};
+constexpr HeartbeatMessage kCopterLoiter{3, 1, 5, 2};
+constexpr HeartbeatMessage kCopterGuided{3, 1, 4, 2};
 
 AutopilotMonitor monitor() { return AutopilotMonitor(3s); }
 
@@ -50,8 +50,13 @@ TEST(AutopilotMonitor, KnowsTheModeThatObeysSetpoints) {
   EXPECT_FALSE(obeys(kCopterLoiter));
   EXPECT_TRUE(obeys(kCopterGuided));
   EXPECT_EQ(monitor.state(kStart).kind, AutopilotKind::kArduPilot);
-  EXPECT_FALSE(obeys({3, 0, 4}));        // no custom mode
-  EXPECT_FALSE(obeys({3, 1, 6 << 16}));  // the other one's number
+  EXPECT_FALSE(obeys({3, 0, 4, 2}));        // no custom mode
+  EXPECT_FALSE(obeys({3, 1, 6 << 16, 2}));  // the other one's number
+  const auto guides = [&](std::uint8_t type) { return obeys({3, 1, 4, type}); };
+  for (std::uint8_t type = 0; type < 50; ++type) {
+    const bool copter = type == 2 || type == 3 || type == 4 || (type >= 13 && type <= 15) || type == 29 || type == 35;
+    EXPECT_EQ(guides(type), copter) << "a plane, a rover and a boat number their modes otherwise: " << int{type};
+  }
   EXPECT_FALSE(obeys({12, 1, 4}));
   EXPECT_FALSE(obeys({0, 1, 6 << 16}));
 }

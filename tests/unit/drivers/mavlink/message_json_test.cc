@@ -29,6 +29,7 @@ TEST(MessageJson, ReadsHeartbeats) {
   const auto message = fromJson<HeartbeatMessage>(kHeartbeat);
   ASSERT_TRUE(message);
   EXPECT_EQ(message->autopilot, 12);
+  EXPECT_EQ(message->type, 2);
   EXPECT_EQ(message->base_mode, 209);
   EXPECT_EQ(message->custom_mode, 393216U);
 }
