@@ -83,7 +83,7 @@ struct alignas(64) TileDistances {
   /// Every second pair of lines with its halves swapped: so any four by four pixels are of sixteen sets, as those are
   /// that lie nearest together, and the k-th minimum is close to the k-th distance.
   HWY_INLINE void addTo(SetMinima& minima) const {
-    constexpr std::size_t kPair = 2 * TileGrid::kTileEdge_px;
+    constexpr auto kPair = static_cast<std::size_t>(2 * TileGrid::kTileEdge_px);
     static_assert(kPair == kGroupBoxes && 4 * kPair == TileGrid::kTilePixels);
     for (std::size_t set = 0; set < kPair; set += kLanes) {
       const FloatVec upper = hn::Min(vector(set), withHalvesSwapped(set + kPair));
