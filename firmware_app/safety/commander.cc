@@ -36,8 +36,12 @@ LocalNedTarget toNed(Time now, const CommandedMotion& commanded, const NedFromWo
 }  // namespace
 
 Commander::Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s,
-                     Duration setpoint_lead)
-    : machine_(checked(parameters)), limits_(limits), heading_(max_yaw_rate_rad_s), setpoint_lead_(setpoint_lead) {}
+                     Duration setpoint_lead, AutopilotWorld autopilot_world)
+    : machine_(checked(parameters)),
+      limits_(limits),
+      in_force_(autopilot_world),
+      heading_(max_yaw_rate_rad_s),
+      setpoint_lead_(setpoint_lead) {}
 
 bool isRefused(const CommandInputs& inputs) {
   return inputs.recording && !(inputs.autopilot.linked && inputs.autopilot.simulated);
@@ -79,7 +83,8 @@ Situation Commander::situationAt(Time now, const CommandInputs& inputs, bool pla
   if (flyable && vehicle.state && plan->consumed.epoch == vehicle.state->epoch) situation.plan = plan->stamp;
   if (const auto& decision = in_force_.decision()) {
     situation.brake_end = decision->brake.start() + fromSeconds(decision->brake.duration_s());
-    situation.anchored_before = in_force_.anchorOutlives(alignment);
+    situation.motion_anchored =
+        in_force_.anchorHolds(alignment, vehicle.state ? vehicle.state->epoch : alignment.epoch);
   }
   situation.unsent_since = inputs.unsent_since;
   situation.linked = inputs.autopilot.linked;

@@ -74,7 +74,7 @@ class Commander {
   /// @param setpoint_lead       from a setpoint to when it is acted on
   /// @throws std::invalid_argument naming the parameter that is wrong
   Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s,
-            Duration setpoint_lead);
+            Duration setpoint_lead, AutopilotWorld autopilot_world);
 
   [[nodiscard]] Command step(Time now, const CommandInputs& inputs);
 

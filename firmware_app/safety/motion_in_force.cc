@@ -27,10 +27,12 @@ void MotionInForce::follow(const Alignment& alignment) {
   }
 }
 
-bool MotionInForce::anchorOutlives(const Alignment& alignment) const {
+bool MotionInForce::anchorHolds(const Alignment& alignment, std::uint32_t poses_epoch) const {
   if (!decision_ || contradicted_) return false;
+  const std::uint32_t epoch = decision_->consumed.epoch;
+  if (epoch != poses_epoch || epoch != alignment.epoch) return autopilot_world_ == AutopilotWorld::kItsOwn;
   const bool silent = alignment.verdict == AlignmentVerdict::kUnknown && alignment.T_NED_W;
-  return silent || decision_->consumed.epoch != alignment.epoch;
+  return silent || isKnown(alignment, decision_);
 }
 
 }  // namespace nanomap

@@ -9,12 +9,20 @@
 
 namespace nanomap {
 
+/// Whose poses the autopilot flies by.
+enum class AutopilotWorld : std::uint8_t {
+  kItsOwn,  ///< its world stays where it is when ours jumps
+  kOurs,    ///< it gets our poses (ODOMETRY): when ours jumps, its world does, by as much
+};
+
 /// The decision that is flown, and where its world is in the autopilot's. A decision is only taken over when that is
 /// known, and not while the vehicle is braked: what is flown then is the brake that was verified before. So the
 /// setpoint never steps with the estimator: after a jump of its world, the motion from before is flown where it was.
 /// Threads: one. Allocates: no.
 class MotionInForce {
  public:
+  explicit MotionInForce(AutopilotWorld autopilot_world) : autopilot_world_(autopilot_world) {}
+
   /// Goes over to the last decision that may be flown (isFlyable), if there was one and its world's place is known.
   /// @param sequence  the planner's count of it
   void adopt(const std::optional<Decision>& newest, std::uint64_t sequence, const Alignment& alignment);
@@ -28,12 +36,14 @@ class MotionInForce {
   /// T_NED_W of the decision's world. @pre there is a decision
   [[nodiscard]] const NedFromWorld& anchor() const { return anchor_; }
 
-  /// The anchor is of before, and still holds: the estimator has jumped since, and the poses' world is another; or the
-  /// autopilot no longer tells where it is. It does not once the two have told of different motions: then it is the
-  /// autopilot's own world that may have moved.
-  [[nodiscard]] bool anchorOutlives(const Alignment& alignment) const;
+  /// Is the decision's world where the anchor says? It is known to be, or was known before and nothing since tells
+  /// otherwise: the autopilot no longer tells where it is; or the estimator has jumped, and the autopilot has a world
+  /// of its own. Not once the two have told of different motions: then it is the autopilot's world that may have moved.
+  /// @param poses_epoch  of the estimator's world now
+  [[nodiscard]] bool anchorHolds(const Alignment& alignment, std::uint32_t poses_epoch) const;
 
  private:
+  AutopilotWorld autopilot_world_;
   std::optional<Decision> decision_;
   std::uint64_t sequence_ = 0;
   NedFromWorld anchor_;

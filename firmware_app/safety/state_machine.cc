@@ -84,7 +84,11 @@ void StateMachine::follow(const Situation& situation) {
 
   if (!situation.external_control) ordered_ = false;
   const bool in_our_hands = state_ == State::kFlying || state_ == State::kBraking || state_ == State::kLost;
-  if (in_our_hands && !ours && situation.linked) {
+  // The pilot may have taken over and given back meanwhile.
+  if (in_our_hands && faults_.has(Fault::kAutopilot)) ordered_ = false;
+  const bool taken = !ours && situation.linked;
+  const bool order_is_old = state_ == State::kBraking && settled && !ordered_;
+  if (in_our_hands && (taken || order_is_old)) {
     state_ = State::kWaiting;
     ordered_ = false;
     fault_since_.reset();
@@ -133,8 +137,7 @@ Stream StateMachine::stream(const Situation& situation) const {
     case State::kLost:
       return Stream::kNone;
   }
-  const bool positions_hold = situation.anchored || situation.anchored_before;
-  return positions_hold && !faults_.has(Fault::kPose) ? Stream::kMotion : Stream::kVelocity;
+  return situation.motion_anchored && !faults_.has(Fault::kPose) ? Stream::kMotion : Stream::kVelocity;
 }
 
 }  // namespace nanomap

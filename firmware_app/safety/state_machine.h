@@ -22,8 +22,9 @@ namespace nanomap {
 /// | Flying  | the motion in force       | Braking    | a fault                                                   |
 /// |         |                           | Waiting    | the pilot has left external control, or has disarmed      |
 /// | Braking | its brake, to a standstill| Waiting    | as above                                                  |
-/// |         | (no positions, where they | Flying     | no fault for `settle`                                     |
-/// |         | mean nothing)             | Lost       | stopped                                                   |
+/// |         | (no positions, where they | Flying     | no fault for `settle`, and the autopilot was always heard |
+/// |         | mean nothing)             | Ready      | no fault for `settle`, and it was not                     |
+/// |         |                           | Lost       | stopped                                                   |
 /// | Lost    | none: the autopilot's own | Waiting    | the pilot has left external control, or has disarmed      |
 /// |         | failsafe acts             |            |                                                           |
 ///
@@ -60,10 +61,8 @@ struct Situation {
   std::optional<double> speed_m_s;
   bool ending = false;  ///< this process has been told to end
   bool stalled = false;
-  bool anchored = false;  ///< T_NED_W is known well for the world that poses are in now
-  /// Where the motion's world is in NED is known from before, and still holds: the estimator has jumped since, and the
-  /// poses' world is another; or the autopilot no longer tells where it is.
-  bool anchored_before = false;
+  bool anchored = false;         ///< T_NED_W is known well for the world that poses are in now
+  bool motion_anchored = false;  ///< where the motion in force's world is in NED is known, now or from before
 
   std::optional<Time> unsent_since;  ///< what should have been sent since then was refused on its way out
   bool live_refused = false;         ///< the autopilot flies a real vehicle, and what we see is a recording

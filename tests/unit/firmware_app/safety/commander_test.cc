@@ -64,13 +64,13 @@ class CommanderInFlight : public ::testing::Test {
   }
 
   static inline const Vec3 kHere_W_m{5.0, 2.0, 1.5};
-  Commander commander_{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead};
+  Commander commander_{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kItsOwn};
   Time now_ = atMs(10'000);
   Command command_;
 };
 
 TEST(Commander, HoldsWhereTheVehicleIsWhileReady) {
-  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead};
+  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kItsOwn};
   const NedFromWorld T_NED_W(70.0 * kDeg, {100.0, -50.0, -3.0});
   const Vec3 here_W{5.0, 2.0, 1.5};
   const Command command = commander.step(atMs(0), inputsAt(atMs(0), here_W, 3.0));
@@ -83,7 +83,7 @@ TEST(Commander, HoldsWhereTheVehicleIsWhileReady) {
 }
 
 TEST(Commander, SendsNothingWithoutAlignment) {
-  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead};
+  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kItsOwn};
   CommandInputs inputs = inputsAt(atMs(0), Vec3::Zero(), 0.0);
   inputs.alignment = {};
   const Command command = commander.step(atMs(0), inputs);
@@ -106,7 +106,7 @@ TEST(IsRefused, RecordingIsToldToASimulatedAutopilotThatIsHeardAndToNoOther) {
 }
 
 TEST(Commander, RecordingWaitsForTheAutopilotBeforeItAsksForASimulatedOne) {
-  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead};
+  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kItsOwn};
   CommandInputs inputs = inputsAt(atMs(0), Vec3::Zero(), 0.0);
   inputs.recording = true;
   EXPECT_TRUE(commander.step(atMs(0), inputs).verdict.faults.has(Fault::kLive));
@@ -189,9 +189,40 @@ TEST_F(CommanderInFlight, SilenceAfterAJumpOfTheAutopilotDoesNotBringTheOldPlace
   inputs.alignment.verdict = AlignmentVerdict::kUnknown;
   command = commander_.step(now_ += kStep, inputs);
   EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
-  inputs.alignment.epoch = 1;  // nor does a jump of the estimator, which tells nothing of the autopilot
+  inputs.vehicle.state->epoch = 1;  // nor does a jump of the estimator, which tells nothing of the autopilot
+  inputs.alignment = aligned(NedFromWorld(70.0 * kDeg, {90.0, -50.0, -3.0}), 1);
+  inputs.alignment.verdict = AlignmentVerdict::kUnknown;
   command = commander_.step(now_ += kStep, inputs);
   EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
+  inputs.alignment.verdict = AlignmentVerdict::kGood;  // of the new world: the motion is of the old one
+  command = commander_.step(now_ += kStep, inputs);
+  EXPECT_EQ(command.verdict.state, State::kBraking);
+  EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
+}
+
+/// It is told the new poses, and takes its world along: the old places are elsewhere in it.
+TEST_F(CommanderInFlight, JumpOfAnEstimatorThatTheAutopilotFliesByIsBrakedForWithVelocitiesOnly) {
+  commander_ = Commander(SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kOurs);
+  for (int i = 0; i < 50; ++i, now_ += kStep) (void)commander_.step(now_, inputsAt(now_, kHere_W_m, 0.0));
+  CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 4.0));
+  Command command = commander_.step(now_, inputs);
+  ASSERT_EQ(command.verdict.stream, Stream::kMotion);
+  command = commander_.step(now_ += kStep, inputs);
+  inputs.vehicle.state->epoch = 1;  // the poses come first
+  command = commander_.step(now_ += kStep, inputs);
+  EXPECT_EQ(command.verdict.state, State::kBraking);
+  EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
+  inputs.alignment = {};
+  inputs.alignment.epoch = 1;
+  command = commander_.step(now_ += kStep, inputs);
+  EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
+  inputs.alignment = aligned(NedFromWorld(70.0 * kDeg, {100.0, -50.0, -3.0}), 1);
+  command = commander_.step(now_ += kStep, inputs);
+  EXPECT_EQ(command.verdict.state, State::kBraking);
+  EXPECT_EQ(command.verdict.stream, Stream::kVelocity);
+  ASSERT_TRUE(command.motion);
+  EXPECT_EQ(command.target.type_mask & 0b111, 0b111);
+  EXPECT_GT(command.target.velocity_NED_m_s.norm(), 2.0F);
 }
 
 // The estimator's world jumps by tens of metres and 40 degrees; the autopilot's does not.

@@ -19,6 +19,7 @@ inline Situation healthyAt(Time now) {
   situation.brake_end = now + std::chrono::milliseconds(900);
   situation.speed_m_s = 5.0;
   situation.anchored = true;
+  situation.motion_anchored = true;
   situation.linked = true;
   situation.armed = true;
   return situation;

@@ -182,6 +182,23 @@ TEST(StateMachine, BriefFaultIsFlownOutOfOnceItHasSettled) {
   EXPECT_FALSE(machine.wasIn(State::kLost));
 }
 
+/// Who took over and gave back meanwhile was not seen.
+TEST(StateMachine, OrderFromBeforeALinkWasDownIsNone) {
+  Machine machine;
+  machine.fly();
+  const auto unheard = [](Situation& s) {
+    Machine::ordered(s);
+    s.linked = false;
+  };
+  EXPECT_EQ(machine.step(unheard).state, State::kBraking);
+  EXPECT_EQ(machine.run(std::chrono::milliseconds(480), Machine::ordered).state, State::kBraking);
+  const SafetyVerdict verdict = machine.run(std::chrono::milliseconds(40), Machine::ordered);
+  EXPECT_EQ(verdict.state, State::kReady);
+  EXPECT_EQ(verdict.stream, Stream::kHold);
+  EXPECT_TRUE(verdict.old_switch);
+  EXPECT_EQ(machine.run(kSecond, Machine::ordered).state, State::kReady);
+}
+
 TEST(StateMachine, LostStaysLostUntilThePilotTakesOver) {
   Machine machine;
   machine.fly();
@@ -312,13 +329,13 @@ const FaultCase kFaultCases[] = {
     {"ToldToEnd", [](Situation& s, Time) { s.ending = true; }, Fault::kEnding, kAtOnce, Stream::kMotion},
     {"ThreadStalled", [](Situation& s, Time) { s.stalled = true; }, Fault::kStalled, kAtOnce, Stream::kMotion},
     {"AutopilotGone", [](Situation& s, Time) { s.linked = false; }, Fault::kAutopilot, kAtOnce, Stream::kMotion},
-    {"EstimatorJumped",
+    {"EstimatorJumped", [](Situation& s, Time) { s.anchored = false; }, Fault::kAlignment, kAtOnce, Stream::kMotion},
+    {"AutopilotJumped",
      [](Situation& s, Time) {
        s.anchored = false;
-       s.anchored_before = true;
+       s.motion_anchored = false;
      },
-     Fault::kAlignment, kAtOnce, Stream::kMotion},
-    {"AutopilotJumped", [](Situation& s, Time) { s.anchored = false; }, Fault::kAlignment, kAtOnce, Stream::kVelocity},
+     Fault::kAlignment, kAtOnce, Stream::kVelocity},
 };
 
 INSTANTIATE_TEST_SUITE_P(Matrix, StateMachineFaults, ::testing::ValuesIn(kFaultCases),
