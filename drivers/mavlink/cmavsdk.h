@@ -67,6 +67,8 @@ void mavsdk_log_unsubscribe();
 
 std::uint32_t mavsdk_system_get_system_id(mavsdk_system_t system);
 bool mavsdk_system_has_autopilot(mavsdk_system_t system);
+/// It was heard of late.
+bool mavsdk_system_is_connected(mavsdk_system_t system);
 void mavsdk_system_enable_timesync(mavsdk_system_t system);
 void mavsdk_system_destroy(mavsdk_system_t system);
 

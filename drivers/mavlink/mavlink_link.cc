@@ -1,5 +1,6 @@
 #include "drivers/mavlink/mavlink_link.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <map>
@@ -132,6 +133,7 @@ class MavlinkLink::Session {
     if (status != last_status_ || now >= next_heartbeat_) {
       own_heartbeats_ = true;
       (void)sendMessage("HEARTBEAT", toJson(status));
+      (void)lookAround();
       last_status_ = status;
       next_heartbeat_ = now + kHeartbeatPeriod;
     }
@@ -217,18 +219,26 @@ class MavlinkLink::Session {
  private:
   using Counter = std::atomic<std::uint64_t>;
 
-  bool discover() {
+  /// The vehicle's autopilot, if it is heard. Notes whether another one is.
+  System lookAround() {
+    System ours;
+    std::uint8_t other = kNoSystem;
     for (System& system : systemsOf(mavsdk_.get())) {
-      if (!mavsdk_system_has_autopilot(system.get())) continue;
+      if (!mavsdk_system_has_autopilot(system.get()) || !mavsdk_system_is_connected(system.get())) continue;
       const auto id = static_cast<std::uint8_t>(mavsdk_system_get_system_id(system.get()));
       if (id == autopilot_.system_id) {
-        system_ = std::move(system);
+        ours = std::move(system);
       } else {
-        other_autopilot_ = id;
+        other = std::max(other, id);
       }
     }
+    other_autopilot_ = other;
+    return ours;
+  }
+
+  bool discover() {
+    system_ = lookAround();
     if (!system_) return false;
-    other_autopilot_ = kNoSystem;
     mavsdk_system_enable_timesync(system_.get());
     direct_.reset(mavsdk_mavlink_direct_create(system_.get()));
     subscribe<HeartbeatMessage>("HEARTBEAT");

@@ -55,8 +55,9 @@ class MavlinkLink : public AutopilotLink {
   [[nodiscard]] std::optional<AutopilotPose> takePose() override;
   [[nodiscard]] LinkCounters counters() const;
 
-  /// The system id of an autopilot that is heard and told nothing, for it is not the vehicle's
-  /// (LinkParameters::system_id); empty if there is none, or the vehicle's has been discovered.
+  /// The system id of an autopilot that is heard as well as or instead of the vehicle's (LinkParameters::system_id),
+  /// looked for once a second; empty if there is none. It gets no setpoint and no command; but messages that have no
+  /// addressee, ODOMETRY and OBSTACLE_DISTANCE among them, go to everyone on the link.
   [[nodiscard]] std::optional<std::uint8_t> otherAutopilot() const;
 
   /// Asks for a parameter of the autopilot, which may not answer. Nothing here ever sets one. Threads: that of

@@ -14,7 +14,7 @@ Section mavlinkSection() {
            TextRule{255}, [](auto& c) -> auto& { return c.mavlink.link.url; }),
        integerKey(
            "system_id",
-           "The vehicle's: a companion computer is a part of it, and tells no other one's autopilot anything.",
+           "The vehicle's: a companion computer is a part of it. Another vehicle's autopilot gets no setpoint.",
            {1, 255}, [](auto& c) -> auto& { return c.mavlink.link.system_id; }),
        integerKey(
            "component_id", "Ours; 196 is MAV_COMP_ID_OBSTACLE_AVOIDANCE.", {1, 255},

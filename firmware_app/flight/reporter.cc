@@ -102,13 +102,16 @@ void Reporter::tell(Time now) {
   service_.setStatus(line);
 }
 
-/// Else one would wait for an autopilot that sends all the time.
+/// Else one waits for an autopilot that sends all the time; or another vehicle flies by our poses.
 void Reporter::tellOfOtherAutopilot() {
   const auto other = parts_.link.otherAutopilot();
   if (other == other_autopilot_told_) return;
   other_autopilot_told_ = other;
   if (!other) return;
-  spdlog::warn("the autopilot of system {} is heard, which mavlink.system_id is not: it is told nothing", *other);
+  spdlog::warn(
+      "the autopilot of system {} is heard, which is not mavlink.system_id: it gets no setpoint, but hears what "
+      "is for everyone (ODOMETRY, OBSTACLE_DISTANCE)",
+      *other);
 }
 
 void Reporter::tellOfRecording(NamedCounters& others) {

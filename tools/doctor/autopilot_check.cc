@@ -29,7 +29,7 @@ Findings checkAutopilot(const Facts& facts) {
                     fmt::format("the autopilot of system {} is heard, but mavlink.system_id = {}",
                                 *autopilot.other_system, link.system_id),
                     fmt::format("mavlink.system_id = {} if that is the vehicle's: a companion computer is a part of "
-                                "its vehicle, and tells no other one anything",
+                                "its vehicle, and commands no other one",
                                 *autopilot.other_system))};
   }
   if (!state.heartbeat_age) {
@@ -46,6 +46,13 @@ Findings checkAutopilot(const Facts& facts) {
   Findings findings;
   if (state.kind != AutopilotKind::kPx4 && state.kind != AutopilotKind::kArduPilot) {
     findings.push_back(failure(kSubject, fmt::format("it is {}", toString(state.kind)), "PX4 or ArduPilot is needed"));
+  }
+  if (autopilot.other_system) {
+    const bool to_everyone = facts.configuration.mavlink.send_odometry || facts.configuration.mavlink.send_obstacles;
+    const std::string seen = fmt::format("the autopilot of system {} is on the same link", *autopilot.other_system);
+    const std::string fix =
+        "give every vehicle a port or a line of its own: ODOMETRY and OBSTACLE_DISTANCE have no addressee";
+    findings.push_back(to_everyone ? failure(kSubject, seen, fix) : warning(kSubject, seen, fix));
   }
   if (!state.position_age || !state.attitude_age) {
     findings.push_back(

@@ -18,9 +18,11 @@ namespace {
 
 constexpr double kDegreesARadian = 180.0 / std::numbers::pi;
 
-LinkParameters linkTo(const std::string& url) {
+/// @param flown  of the flight process
+LinkParameters linkTo(const std::string& url, const LinkParameters& flown) {
   LinkParameters parameters;
   parameters.url = url;
+  parameters.system_id = flown.system_id;
   parameters.component_id = 194;  // MAV_COMP_ID_ONBOARD_COMPUTER4: not the flight process's
   parameters.pose_rate_hz = 100.0;
   return parameters;
@@ -39,6 +41,10 @@ AutopilotPose awaitVehicle(MavlinkLink& link, const std::string& url, const std:
     std::this_thread::sleep_for(kRound);
   }
   if (stopped()) throw std::runtime_error("stopped while it waited for an autopilot");
+  if (const auto other = link.otherAutopilot()) {
+    throw std::runtime_error(
+        fmt::format("the autopilot on {} is that of system {}: set mavlink.system_id", url, *other));
+  }
   throw std::runtime_error(fmt::format(
       "no autopilot on {} that tells its position, attitude and landed state. Does it run, does it send there, and has "
       "its estimator a position?",
@@ -53,7 +59,7 @@ LiveFlight flyLive(const Configuration& configuration, const generate::SensedFli
   const MavsdkLog quiet([](MavsdkLog::Level, std::string_view) {});
   const LogClock clock = monotonicLogClock();
   LcmNetwork network(configuration.lcm.url, {configuration.lcm.health_channel, configuration.lcm.decisions_channel});
-  MavlinkLink link(linkTo(options.autopilot_url), clock.now);
+  MavlinkLink link(linkTo(options.autopilot_url, configuration.mavlink.link), clock.now);
   std::optional<LogWriter> log;
   if (options.log) log.emplace(*options.log);
 

@@ -122,6 +122,26 @@ TEST(Link, IsToTheVehicleThatItIsConfiguredFor) {
   EXPECT_EQ(message.at("fields").at("target_system"), 3);
 }
 
+/// Both send to our port, the other vehicle's first.
+TEST(Link, OfTwoAutopilotsCommandsTheVehiclesOwn) {
+  Companion companion(Wire::kUdp, {"--system", "3"});
+  ASSERT_TRUE(companion.until([&] { return companion.link.otherAutopilot() == 3; }));
+  const std::string& url = companion.autopilot.url();
+  AutopilotProcess ours({"--udp", url.substr(url.rfind(':') + 1)});
+  ASSERT_TRUE(companion.untilLinked());
+  EXPECT_EQ(companion.link.otherAutopilot(), 3) << "it is still there, and hears what has no addressee";
+  ASSERT_EQ(companion.link.send(target()), SendResult::kSent);
+  const auto received = [&] {
+    ours.read(std::chrono::milliseconds(0));
+    return ours.messages("SET_POSITION_TARGET_LOCAL_NED");
+  };
+  ASSERT_TRUE(companion.until([&] { return !received().empty(); }));
+  EXPECT_EQ(received().front().at("fields").at("target_system"), 1);
+  for (const json& message : companion.autopilot.messages("SET_POSITION_TARGET_LOCAL_NED")) {
+    EXPECT_EQ(message.at("fields").at("target_system"), 1) << "to the other vehicle";
+  }
+}
+
 TEST(Link, DropsASetpointThatWasHeldUp) {
   Companion companion(Wire::kUdp);
   ASSERT_TRUE(companion.untilLinked());

@@ -113,6 +113,13 @@ TEST(AutopilotCheck, EachStageOfTheLinkIsTold) {
   EXPECT_EQ(verdictOf(checkAutopilot(withAutopilot(AutopilotKind::kOther))), Verdict::kFailure);
 
   Facts facts = withAutopilot(AutopilotKind::kArduPilot);
+  facts.autopilot->other_system = 3;
+  facts.configuration.mavlink.send_odometry = facts.configuration.mavlink.send_obstacles = false;
+  EXPECT_EQ(verdictOf(checkAutopilot(facts)), Verdict::kWarning);
+  facts.configuration.mavlink.send_odometry = true;
+  EXPECT_EQ(verdictOf(checkAutopilot(facts)), Verdict::kFailure);
+  EXPECT_THAT(fixesOf(checkAutopilot(facts)), HasSubstr("a port or a line of its own"));
+  facts.autopilot->other_system.reset();
   facts.autopilot->state.position_age.reset();
   EXPECT_EQ(verdictOf(checkAutopilot(facts)), Verdict::kFailure);
   facts.autopilot->state.linked = false;
