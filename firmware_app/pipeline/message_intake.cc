@@ -77,13 +77,21 @@ Outcome MessageIntake::read(InputKind kind, Bytes message) {
       });
     case InputKind::kGoal:
       return take<goal_t>(message, toGoal, [this](const auto&, Goal goal) {
-        goal.epoch = epochs_.epochOf(goal.epoch);
+        goal.epoch = epochOf(goal);
         return goal;
       });
     case InputKind::kDepth:
       break;
   }
   return readDepth(message);
+}
+
+std::uint32_t MessageIntake::epochOf(const Goal& sent) {
+  const bool again = goal_sent_ && goal_sent_->sequence == sent.sequence && goal_sent_->epoch == sent.epoch &&
+                     goal_sent_->position_W_m == sent.position_W_m;
+  if (!again) goal_epoch_ = epochs_.epochOf(sent.epoch);
+  goal_sent_ = sent;
+  return goal_epoch_;
 }
 
 Outcome MessageIntake::readPose(Bytes message) {

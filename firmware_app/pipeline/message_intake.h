@@ -50,8 +50,8 @@ using Input = std::variant<PoseInput, Correction, CameraInput, DepthInput, Goal>
 
 /// Messages of the configured channels as values of core, whatever type carries them: each type is recognised by its
 /// hash. Numbers the messages of types that have no sequence number, and raises the epoch of all that comes after a
-/// jump of the estimator's world that the estimator did not tell (epoch_assigner.h).
-/// Threads: one.
+/// jump of the estimator's world that the estimator did not tell (epoch_assigner.h); but a goal that is sent again
+/// stays in the world that it was sent in first, for its sender knows of no jump either. Threads: one.
 class MessageIntake {
  public:
   explicit MessageIntake(const LcmParameters& lcm) : lcm_(lcm), epochs_(lcm.max_body_speed_m_s) {}
@@ -66,9 +66,12 @@ class MessageIntake {
  private:
   [[nodiscard]] Outcome readPose(Bytes message);
   [[nodiscard]] Outcome readDepth(Bytes message);
+  [[nodiscard]] std::uint32_t epochOf(const Goal& sent);
 
   LcmParameters lcm_;
   EpochAssigner epochs_;
+  std::optional<Goal> goal_sent_;  ///< last, as it was
+  std::uint32_t goal_epoch_ = 0;   ///< of that
   std::uint64_t unnumbered_poses_ = 0;
   std::uint64_t unnumbered_images_ = 0;
 };

@@ -89,6 +89,25 @@ TEST(MessageIntake, JumpThatTheEstimatorHidesRaisesTheEpochOfAllThatFollows) {
   EXPECT_EQ(taken<Correction>(intake, InputKind::kCorrection, message).epoch, 4U);
 }
 
+TEST(MessageIntake, GoalThatIsSentAgainAfterAHiddenJumpStaysInItsWorld) {
+  MessageIntake intake{LcmParameters{}};
+  const auto worldOf = [&](const goal_t& goal) { return taken<Goal>(intake, InputKind::kGoal, encoded(goal)).epoch; };
+  goal_t goal{};
+  goal.sequence = 7;
+  goal.position[0] = 50.0;
+  (void)taken<PoseInput>(intake, InputKind::kPose, encoded(poseMessage(0, 0.0)));
+  EXPECT_EQ(worldOf(goal), 0U);
+  (void)taken<PoseInput>(intake, InputKind::kPose, encoded(poseMessage(10'000, 20.0)));
+  EXPECT_EQ(worldOf(goal), 0U) << "20 m off where it was meant";
+  goal.top_speed = 3.0;
+  EXPECT_EQ(worldOf(goal), 0U);
+  goal.sequence = 8;
+  EXPECT_EQ(worldOf(goal), 1U) << "it is another one";
+  EXPECT_EQ(worldOf(goal), 1U);
+  goal.position[0] = 30.0;
+  EXPECT_EQ(worldOf(goal), 1U);
+}
+
 TEST(MessageIntake, PoseConventionIsTheConfiguredOne) {
   LcmParameters lcm;
   lcm.pose_t_body = BodyConvention::kFrd;
