@@ -179,7 +179,8 @@ class Search {
   /// Visits the nearest boxes of a group, and adds the others within reach to the candidates.
   HWY_INLINE void openLikely(std::size_t group) {
     // The second one brings the reach down by more than it costs; a third one does not.
-    constexpr int kVisitedFirst = 2;
+    constexpr std::size_t kVisitedFirst = 2;
+    static_assert(kVisitedFirst <= Nearest::kCollected);
     const FloatTag d;
     const IndexTag di;
     alignas(64) BoxLanes least_sq_m2;
@@ -192,7 +193,7 @@ class Search {
     // By the reach as it was before, so that they need not wait for one another.
     const float reach_before = nearest_.reach();
     BoxOrder::Key next = BoxOrder::next(keys.data(), keys.size(), BoxOrder::kBeforeAll);
-    for (int i = 0; i < kVisitedFirst && BoxOrder::bound(next) <= reach_before; ++i) {
+    for (std::size_t i = 0; i < kVisitedFirst && BoxOrder::bound(next) <= reach_before; ++i) {
       const std::size_t place = BoxOrder::place(next);
       next = BoxOrder::next(keys.data(), keys.size(), next);
       visit<Added::kTogether>(group * kGroupBoxes + place);

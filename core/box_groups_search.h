@@ -21,7 +21,8 @@ struct IndexedImage {
   float depth_unit_m;
 };
 
-/// An indexed pixel, by tile and place in it. Nothing until assigned: every query has room for sixteen of them.
+/// An indexed pixel, by tile and place in it. Not initialised: to clear the sixteen that a query has room for takes 1
+/// to 3 % of it.
 struct FoundPixel {
   float distance_sq_m2;
   std::uint32_t pixel;  ///< tile * TileGrid::kTilePixels + place in the tile

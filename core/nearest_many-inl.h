@@ -131,7 +131,7 @@ class NearestMany {
   }
 
   /// Tiles before a reach is known, of which all but a few pixels would be inserted in vain: they wait for
-  /// addCollected(). @pre less than kCollected are waiting
+  /// addCollected(), which comes before any addTile(). @pre fewer than kCollected are waiting
   template <class DistanceAt>
   HWY_INLINE void collectTile(std::uint32_t first_pixel, DistanceAt distanceAt) {
     collected_[collected_count_++].assign(first_pixel, distanceAt);

@@ -48,6 +48,8 @@ class NearestOne {
     pixel_ = hn::IfThenElse(better, pixel, pixel_);
   }
 
+  static constexpr std::size_t kCollected = 2;
+
   /// As addTile(): waiting for others would gain nothing.
   template <class DistanceAt>
   HWY_INLINE void collectTile(std::uint32_t first_pixel, DistanceAt distanceAt) {

@@ -185,6 +185,50 @@ TEST_P(ImageIndexOn, ForgetsTheImageBefore) {
   }
 }
 
+TEST_P(ImageIndexOn, EqualsBruteForceForEveryNumberOfNeighbours) {
+  std::mt19937 random(kSeed);
+  const auto camera = model(smallCamera(97, 61));
+  for (const std::uint16_t farthest : std::initializer_list<std::uint16_t>{3001, 9900}) {
+    const Indexed indexed(camera, test::randomImage(*camera, random, 3000, farthest, 0.1));
+    for (const Vec3f& p_C : queriesAround(indexed, random, 12)) {
+      const std::vector<float> expected_m = bruteForce(indexed.points_C, p_C);
+      for (std::size_t k = 1; k <= kMaxNeighbours; ++k) {
+        const std::vector<Neighbour> found = indexed.nearest(p_C, k);
+        ASSERT_EQ(found.size(), k);
+        for (std::size_t i = 0; i < k; ++i) ASSERT_EQ(found[i].distance_m, expected_m[i]) << i << " of " << k;
+      }
+    }
+  }
+}
+
+/// Groups are swept in several goes: what is found in one bounds the next.
+TEST_P(ImageIndexOn, EqualsBruteForceOnAVeryLargeImage) {
+  std::mt19937 random(kSeed);
+  const auto camera = model(smallCamera(1920, 1200));
+  const Indexed indexed(camera, test::randomImage(*camera, random, 300, 9900, 0.1));
+  for (const Vec3f& p_C : {Vec3f(0.5F, 0.2F, 2.0F), Vec3f(0.0F, 1.0F, 0.1F), Vec3f(-9.0F, 3.0F, 9.0F)}) {
+    expectExact(indexed, p_C);
+  }
+}
+
+TEST_P(ImageIndexOn, GivesEqualDistancesInTheOrderOfTilesAndTheirPixels) {
+  std::mt19937 random(kSeed);
+  const auto camera = model(smallCamera(97, 61));
+  for (const DepthImage& image :
+       {test::flatImage(*camera, 3000), test::randomImage(*camera, random, 3000, 3001, 0.1)}) {
+    const Indexed indexed(camera, image);
+    // On the optical axis, mirrored pixels are equally far away.
+    for (const Vec3f& p_C : {Vec3f(0, 0, 1), Vec3f(0, 0, -1), Vec3f(0, 0, 2.9F), Vec3f(0, 0, 100), Vec3f(0.3F, 0, 2)}) {
+      const std::vector<Vec3f> expected_C = test::nearestInTileOrder(image, *camera, p_C, kMaxNeighbours);
+      for (const std::size_t k : {1U, 2U, 5U, 16U}) {
+        const std::vector<Neighbour> found = indexed.nearest(p_C, k);
+        ASSERT_EQ(found.size(), k);
+        for (std::size_t i = 0; i < k; ++i) ASSERT_EQ(found[i].point_C, expected_C[i]) << i << " of " << k;
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Target, ImageIndexOn, testing::ValuesIn(instructionSets()),
                          [](const auto& target) { return std::string(hwy::TargetName(target.param)); });
 
