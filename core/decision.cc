@@ -13,7 +13,7 @@ std::string_view toString(Reason reason) {
     case Reason::kAtGoal:
       return "at the goal";
     case Reason::kSlowing:
-      return "faster than the goal's top speed: slowing down";
+      return "faster than the top speed: slowing down";
     case Reason::kTurning:
       return "the goal is out of view: turning towards it";
     case Reason::kBlocked:

@@ -17,7 +17,7 @@ enum class Reason : std::uint8_t {
   kGoingRound,       ///< round what is in the way, at first not towards the goal
   kKeeping,          ///< nothing new is better than what is left of the motion in force and its brake: that is flown on
   kAtGoal,           ///< stops at the goal
-  kSlowing,          ///< faster than the goal's top speed
+  kSlowing,          ///< faster than the top speed: the goal's, the vehicle's, or a detour's
   kTurning,          ///< stands, and turns towards a goal that is out of view
   kBlocked,          ///< nothing that leads nearer to the goal is safe; looks around
   kRetreating,       ///< too near to something, where not even stopping is safe: moves away from it, or stops at once

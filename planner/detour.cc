@@ -27,8 +27,8 @@ constexpr double kMoving_m_s = 0.5;
 /// A goal that is turned is at least this far away: it is steered for, and never reached, as every plan turns it anew.
 constexpr double kLeastReach_m = 10.0;
 
-/// On a detour a vehicle flies so fast at most that the direction to its goal turns half as fast as its course can:
-/// faster, it is carried past a goal nearby, and circles it.
+/// A vehicle on a detour keeps so slow that the direction to its goal turns half as fast as its course can: a faster
+/// one is carried past a goal nearby, and circles it.
 constexpr double kOfTurnRate = 0.5;
 
 /// Nor need it creep, however near the goal is.

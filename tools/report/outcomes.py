@@ -29,7 +29,7 @@ OUTCOMES = {
     "going round what is in the way": Outcome.GOING_ROUND,
     "nothing new is better: keeping to the verified motion and its brake": Outcome.KEEPING,
     "at the goal": Outcome.AT_GOAL,
-    "faster than the goal's top speed: slowing down": Outcome.SLOWING,
+    "faster than the top speed: slowing down": Outcome.SLOWING,
     "the goal is out of view: turning towards it": Outcome.TURNING,
     "blocked: looking around": Outcome.BLOCKED,
     "too near to something: moving away from it": Outcome.MOVING_AWAY,
