@@ -55,5 +55,21 @@ TEST(VehicleStateAt, NothingIsSubtractedAcrossAJump) {
   EXPECT_TRUE(vehicleStateAt(jumped, std::nullopt, poses).velocity_W_m_s.array().isNaN().all());
 }
 
+/// Too small to be a jump by its speed: 3 m/s, by the mean alone.
+TEST(VehicleStateAt, AStepOfTheEstimatorIsNoVelocity) {
+  PoseBuffer poses = posesUpTo(990);
+  const auto stepped = [](std::int64_t ms) {
+    BodyPose pose = poseAt(ms);
+    pose.T_W_B.translation_m.y() += 0.3;
+    return pose;
+  };
+  for (std::int64_t ms = 1000; ms <= 1090; ms += 10) {
+    EXPECT_EQ(poses.insert(stepped(ms)), PoseVerdict::kAccepted);
+    EXPECT_TRUE(vehicleStateAt(stepped(ms), std::nullopt, poses).velocity_W_m_s.array().isNaN().all()) << ms;
+  }
+  EXPECT_EQ(poses.insert(stepped(1100)), PoseVerdict::kAccepted);
+  EXPECT_NEAR(vehicleStateAt(stepped(1100), std::nullopt, poses).velocity_W_m_s.x(), 2.1, 1e-9);
+}
+
 }  // namespace
 }  // namespace nanomap
