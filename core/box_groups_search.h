@@ -21,7 +21,7 @@ struct IndexedImage {
   float depth_unit_m;
 };
 
-/// An indexed pixel, by tile and place in it. Not initialised: to clear the sixteen that a query has room for takes 1
+/// An indexed pixel, by tile and place in it. Not initialised: to clear the sixteen that a query has room for takes up
 /// to 3 % of it.
 struct FoundPixel {
   float distance_sq_m2;

@@ -31,8 +31,8 @@ class Detour {
   explicit Detour(const DetourParameters& parameters) : parameters_(parameters) {}
 
   /// The goal to steer for from `start`: `goal`, or what is to be taken for it on a detour, which near the goal has a
-  /// lower top speed, too. A goal of another world or
-  /// place than the last one starts anew; small shifts, as of a goal that is corrected for drift, do not.
+  /// lower top speed, too. A goal of another world or place than the last one starts anew; small shifts, as of a goal
+  /// that is corrected for drift, do not.
   /// @param start  of increasing stamps; finite, in the goal's world
   [[nodiscard]] Goal steer(const VehicleState& start, const Goal& goal);
 
