@@ -33,20 +33,36 @@ static_assert(1 << kTileShift == DepthTiles::kEdge_px);
 constexpr auto kFirstColumn = static_cast<std::int32_t>(DepthTiles::Cover::kFirstColumn);
 constexpr auto kFirstRow = static_cast<std::int32_t>(DepthTiles::Cover::kFirstRow);
 
-/// DepthTiles::Cover of many views.
+/// DepthTiles::Cover of the lanes of a vector.
 struct CoverLanes {
   alignas(64) std::array<std::int32_t, kViewLanes> bits;
   alignas(64) std::array<std::int32_t, kViewLanes> steps;
 };
 
+/// Covers of neighbouring lanes, the bits and the steps of one after those of the other.
+template <class D>
+HWY_INLINE hn::Vec<D> interleavedCovers(D d, const DepthTiles::Cover* const* covers, const std::int32_t* tiles) {
+  if constexpr (hn::MaxLanes(D()) == 2) {
+    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(covers[0] + tiles[0]));
+  } else {
+    const hn::Half<D> half;
+    constexpr std::size_t kOfHalf = hn::MaxLanes(half) / 2;
+    return hn::Combine(d, interleavedCovers(half, covers + kOfHalf, tiles + kOfHalf),
+                       interleavedCovers(half, covers, tiles));
+  }
+}
+
 /// Covers of the lanes of a vector, from `first` on. A call, so that tiles are read from memory: inlined, the compiler
 /// takes them out of a vector one by one.
 HWY_NOINLINE void loadCovers(const ViewLanes& views, std::size_t first, const ProbedLanes& at, CoverLanes& out) {
-  for (std::size_t i = first; i < first + hn::MaxLanes(Float()); ++i) {
-    const DepthTiles::Cover& cover = views.cover[i][at.tile[i]];
-    out.bits[i] = static_cast<std::int32_t>(cover.bits);
-    out.steps[i] = static_cast<std::int32_t>(cover.steps);
-  }
+  const Int di;
+  constexpr std::size_t kOfHalf = hn::MaxLanes(Int()) / 2;
+  const auto* covers = views.cover.data() + first;
+  const auto* tiles = at.tile.data() + first;
+  const IntVec left = interleavedCovers(di, covers, tiles);
+  const IntVec right = interleavedCovers(di, covers + kOfHalf, tiles + kOfHalf);
+  hn::Store(hn::ConcatEven(di, right, left), di, out.bits.data());
+  hn::Store(hn::ConcatOdd(di, right, left), di, out.steps.data());
 }
 
 /// One point against one vector of views: the lanes of `views` from `first` on. Bits are relative to `first`.
@@ -155,13 +171,13 @@ class VectorProbe {
     const Int di;
     CoverLanes covers;
     loadCovers(views_, first_, out, covers);
-    const IntVec bits_of_cover = hn::Load(di, covers.bits.data() + first_);
+    const IntVec bits_of_cover = hn::Load(di, covers.bits.data());
     const IntVec none = hn::Zero(di);
     const auto may_be_gap =
         hn::And(hn::Ne(hn::And(bits_of_cover, cells.columns), none), hn::Ne(hn::And(bits_of_cover, cells.rows), none));
     const IntVec raw = hn::Load(di, out.raw.data() + first_);
     const IntVec column = hn::Load(di, out.column.data() + first_);
-    const IntVec steps = hn::Load(di, covers.steps.data() + first_);
+    const IntVec steps = hn::Load(di, covers.steps.data());
     const IntVec down = hn::IfThenElseZero(cells.one_column, below(bits_of_cover, steps, column));
     const auto nearer = hn::Lt(raw, hn::Sub(greatest(bits_of_cover), down));
     return inside & views_.tiled >> first_ & cells.in_tile & ~bitsOf(hn::RebindMask(d, hn::Or(may_be_gap, nearer)));
