@@ -9,17 +9,23 @@
 #include <exception>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "tests/bench/frames/generated_scene.h"
+#include "tests/bench/frames/recorded_flight.h"
 #include "tests/bench/frames/scenario.h"
 #include "tests/bench/report/scoreboard.h"
 #include "tests/bench/rows/certified_survey.h"
+#include "tests/bench/rows/chain_fixture.h"
 #include "tests/bench/rows/effort.h"
+#include "tests/bench/rows/plan_times.h"
 #include "tests/bench/rows/workload.h"
+#include "tools/generate/paper_camera.h"
 #include "tools/import/camera_preset.h"
 
 namespace nanomap::bench {
@@ -66,6 +72,14 @@ Scenario recordedScenario(const Options& options, const Effort& effort) {
   return readScenario(options.depth_folder, *findCameraPreset(options.camera_preset), effort.history);
 }
 
+/// Plans over frames of which the sensor lost a third: gaps cost more to judge than depths. No row is for them.
+void timePatchyPlans(const Effort& effort, Scoreboard& scoreboard) {
+  const RecordedFlight flight =
+      GeneratedScene("forest").fly(generate::paperCamera(320, 240), Noise::kPatchy, {0, effort.history + 1});
+  const PlanTimes plans(std::make_shared<ChainFixture>(flight, effort.history), effort.plans);
+  plans.record(scoreboard, effort.long_rounds, "forest_patchy");
+}
+
 int runRatios(const Options& options, const Effort& effort) {
   Scoreboard scoreboard;
   const bool generated = options.depth_folder.empty();
@@ -73,6 +87,7 @@ int runRatios(const Options& options, const Effort& effort) {
     for (const auto& [scene, noise] : kScenes) {
       Workload(generateScenario(scene, noise, effort.history), effort).measure(scoreboard);
     }
+    timePatchyPlans(effort, scoreboard);
   } else {
     Workload(recordedScenario(options, effort), effort).measure(scoreboard);
     scoreboard.remark("the bars are for generated frames of 320x240");

@@ -30,6 +30,10 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--correction-hz", options.correction_hz, "Sliding-window corrections a second [Hz]; 0: none")
       ->capture_default_str();
+  app.add_option("--patches", options.sensor.patch_share,
+                 "Share of each depth image that is lost in patches, others each time: no texture, or glare")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 0.9));
   app.add_flag("--raw", arguments.raw, "Depth images uncompressed");
   app.add_option(kCameraOff, arguments.camera_off, "The camera is off from T s after the departure on, for D s")
       ->option_text("T:D");

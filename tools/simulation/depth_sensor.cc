@@ -36,6 +36,29 @@ void markShadows(std::span<const float> row_depth_m, double focal_baseline_px_m,
   }
 }
 
+/// Loses ellipses of 2 to 12 % of the image's width and height, until they cover `share` of it.
+void losePatches(DepthImage& image, double share, Random& random) {
+  constexpr double kLeastHalfAxis = 0.01;
+  constexpr double kMostHalfAxis = 0.06;
+  std::vector<bool> lost(image.pixels.size(), false);
+  const double wanted = share * static_cast<double>(lost.size());
+  for (std::size_t count = 0; static_cast<double>(count) < wanted;) {
+    const double middle_u = uniform(random, 0.0, image.width_px);
+    const double middle_v = uniform(random, 0.0, image.height_px);
+    const double half_u = image.width_px * uniform(random, kLeastHalfAxis, kMostHalfAxis);
+    const double half_v = image.height_px * uniform(random, kLeastHalfAxis, kMostHalfAxis);
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+      const auto width = static_cast<std::size_t>(image.width_px);
+      const double u = (static_cast<double>(i % width) - middle_u) / half_u;
+      const double v = (static_cast<double>(i / width) - middle_v) / half_v;
+      if (lost[i] || u * u + v * v >= 1.0) continue;
+      lost[i] = true;
+      image.pixels[i] = kNoReturn;
+      ++count;
+    }
+  }
+}
+
 }  // namespace
 
 DepthSensorParameters DepthSensorParameters::ideal() {
@@ -56,6 +79,7 @@ DepthSensor::DepthSensor(const CameraModel& camera, const DepthSensorParameters&
   require(p.noise_quadratic_per_m >= 0.0, "noise_quadratic_per_m", p.noise_quadratic_per_m, "0 or more");
   require(p.dropout_probability >= 0.0 && p.dropout_probability <= 1.0, "dropout_probability", p.dropout_probability,
           "in 0..1");
+  require(p.patch_share >= 0.0 && p.patch_share <= 1.0, "patch_share", p.patch_share, "in 0..1");
   require(p.stereo_baseline_m >= 0.0, "stereo_baseline_m", p.stereo_baseline_m, "0 or more");
   require(p.disparity_step_px >= 0.0, "disparity_step_px", p.disparity_step_px, "0 or more");
 }
@@ -100,6 +124,7 @@ DepthImage DepthSensor::measure(std::span<const float> depth_m, Time stamp, std:
       if (counts >= 1.0 && counts <= kLargestReturn) image.pixels[row + u] = static_cast<std::uint16_t>(counts);
     }
   }
+  if (parameters_.patch_share > 0.0) losePatches(image, parameters_.patch_share, random);
   return image;
 }
 

@@ -18,6 +18,7 @@ struct DepthSensorParameters {
   double noise_constant_m = 0.002;  ///< standard deviation at depth z: constant + quadratic * z^2
   double noise_quadratic_per_m = 0.0008;
   double dropout_probability = 0.002;      ///< of each pixel, by itself
+  double patch_share = 0.0;                ///< of the image, without depth in patches: no texture, or glare
   double stereo_baseline_m = 0.095;        ///< to the right imager; 0: no stereo, neither shadows nor disparity steps
   double disparity_step_px = 1.0 / 128.0;  ///< in pixels of the depth image; 0: disparities are not quantised
 
@@ -25,10 +26,10 @@ struct DepthSensorParameters {
   [[nodiscard]] static DepthSensorParameters ideal();
 };
 
-/// Turns rendered depth into what the sensor would have reported: shadows at depth edges, dropouts, range limits, noise
-/// that grows with range, steps of disparity and of the depth unit. A function of its arguments and the seed: the noise
-/// of a frame depends on its sequence number, not on what was measured before.
-/// Threads: immutable, any number of readers.
+/// Turns rendered depth into what the sensor would have reported: shadows at depth edges, dropouts, patches, range
+/// limits, noise that grows with range, steps of disparity and of the depth unit. A function of its arguments and the
+/// seed: the noise of a frame depends on its sequence number, not on what was measured before. Threads: immutable, any
+/// number of readers.
 class DepthSensor {
  public:
   /// `camera` must outlive the sensor.

@@ -27,6 +27,14 @@ Pose sway(Duration t) {
   return {Quat(yaw), kAmplitude_m * Vec3(std::sin(0.5 * phase_rad), std::sin(0.7 * phase_rad), std::cos(phase_rad))};
 }
 
+simulation::DepthSensorParameters sensorWith(Noise noise) {
+  constexpr double kPatchShare = 1.0 / 3.0;
+  if (noise == Noise::kClean) return simulation::DepthSensorParameters::ideal();
+  simulation::DepthSensorParameters sensor;
+  if (noise == Noise::kPatchy) sensor.patch_share = kPatchShare;
+  return sensor;
+}
+
 simulation::FlightPath pathThrough(std::string_view name) { return {simulation::makeScene(name, kSeed), {}, kSeed}; }
 
 }  // namespace
@@ -48,9 +56,7 @@ RecordedFlight GeneratedScene::record(const CameraParameters& camera, Noise nois
                                       PoseAt&& poseAt) const {
   RecordedFlight flight;
   flight.camera = std::make_shared<const CameraModel>(camera);
-  const simulation::DepthSensor sensor(
-      *flight.camera,
-      noise == Noise::kNoisy ? simulation::DepthSensorParameters() : simulation::DepthSensorParameters::ideal(), kSeed);
+  const simulation::DepthSensor sensor(*flight.camera, sensorWith(noise), kSeed);
   const auto timeOf = [](std::size_t frame) { return kFramePeriod * static_cast<std::int64_t>(frame); };
   const std::size_t end = frames.first + frames.count;
   for (Duration t = timeOf(frames.first) - kPosePeriod; t <= timeOf(end) + kPosePeriod; t += kPosePeriod) {

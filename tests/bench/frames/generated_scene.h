@@ -10,7 +10,8 @@
 
 namespace nanomap::bench {
 
-enum class Noise { kClean, kNoisy };
+/// Of the sensor. A patchy one loses a third of each frame in patches, too.
+enum class Noise { kClean, kNoisy, kPatchy };
 
 /// A simulated scene, and a flight through it to take depth frames from: 30 Hz, poses at 100 Hz. The same every time.
 class GeneratedScene {

@@ -78,13 +78,21 @@ std::vector<double> PlanTimes::times_s(const Planner& planner, int rounds) const
   return times_s;
 }
 
+PlanTimes::Times PlanTimes::record(Scoreboard& scoreboard, int rounds, const std::string& where) const {
+  const auto spreadOf = [&](const char* name, const Planner& planner) {
+    const std::vector<double> of_plans_s = times_s(planner, rounds);
+    const Spread spread{percentile<double>(of_plans_s, 0.5), percentile<double>(of_plans_s, 0.99)};
+    scoreboard.recordTime("plan", name, where, spread.median_s);
+    scoreboard.recordTime("plan_p99", name, where, spread.p99_s);
+    return spread;
+  };
+  return {spreadOf("nanomap_exhaustive", exhaustive_), spreadOf("nanomap_early_exit", early_)};
+}
+
 void PlanTimes::rate(Scoreboard& scoreboard, int rounds, const std::string& where) const {
-  const std::vector<double> exhaustive_s = times_s(exhaustive_, rounds);
-  const std::vector<double> early_s = times_s(early_, rounds);
-  scoreboard.rate("plan_p99_ms", 1e3 * percentile<double>(exhaustive_s, 0.99), where);
-  scoreboard.rate("plan_early_exit_median_ms", 1e3 * percentile<double>(early_s, 0.5), where);
-  scoreboard.recordTime("plan", "nanomap_exhaustive", where, percentile<double>(exhaustive_s, 0.5));
-  scoreboard.recordTime("plan", "nanomap_early_exit", where, percentile<double>(early_s, 0.5));
+  const Times times = record(scoreboard, rounds, where);
+  scoreboard.rate("plan_p99_ms", 1e3 * times.exhaustive.p99_s, where);
+  scoreboard.rate("plan_early_exit_median_ms", 1e3 * times.early_exit.median_s, where);
 }
 
 }  // namespace nanomap::bench

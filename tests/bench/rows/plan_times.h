@@ -23,8 +23,21 @@ class PlanTimes {
   /// All plans, with and without early exit.
   [[nodiscard]] Contest contest() const;
 
-  /// Over all plans, p99 without early exit and the median with it, each plan's time being its median over `rounds`:
-  /// what is left is what plans differ in, not what else the machine does.
+  /// Over all plans, each plan's time being its median over some rounds: what is left is what plans differ in, not what
+  /// else the machine does.
+  struct Spread {
+    double median_s;
+    double p99_s;
+  };
+  struct Times {
+    Spread exhaustive;
+    Spread early_exit;
+  };
+
+  /// Measures them, and records them as times that no row is made of.
+  Times record(Scoreboard& scoreboard, int rounds, const std::string& where) const;
+
+  /// Rates p99 without early exit and the median with it as well.
   void rate(Scoreboard& scoreboard, int rounds, const std::string& where) const;
 
  private:

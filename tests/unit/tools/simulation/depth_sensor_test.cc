@@ -109,6 +109,23 @@ TEST(DepthSensor, DropoutsHaveTheConfiguredShare) {
   EXPECT_NEAR(share, 0.03, 5.0 * std::sqrt(0.03 * 0.97 / count)) << "seed " << kSeed;
 }
 
+TEST(DepthSensor, PatchesCoverTheConfiguredShareAndHangTogether) {
+  const CameraModel camera = cameraOf(320, 240);
+  DepthSensorParameters parameters = DepthSensorParameters::ideal();
+  parameters.patch_share = 0.3;
+  const DepthImage image = measureEvenly(4.0F, parameters, camera);
+  const double count = static_cast<double>(camera.pixelCount());
+  const auto lost = static_cast<double>(std::count(image.pixels.begin(), image.pixels.end(), 0));
+  constexpr double kOfOnePatch = 0.06 * 0.06 * 3.15;  // at most
+  EXPECT_GE(lost / count, 0.3);
+  EXPECT_LE(lost / count, 0.3 + kOfOnePatch);
+  double edges = 0.0;  // along rows, from lost to seen or back
+  for (std::size_t i = 1; i < image.pixels.size(); ++i) {
+    edges += static_cast<double>((image.pixels[i] == 0) != (image.pixels[i - 1] == 0));
+  }
+  EXPECT_LT(edges / lost, 0.2) << "by itself each pixel has 1.4";
+}
+
 TEST(DepthSensor, EverythingDroppedLeavesNoReturn) {
   const CameraModel camera = cameraOf(8, 8);
   DepthSensorParameters parameters = DepthSensorParameters::ideal();
@@ -168,6 +185,10 @@ TEST(DepthSensor, WrongParametersAreNamed) {
   parameters.dropout_probability = 1.5;
   EXPECT_THAT([&] { DepthSensor(camera, parameters, kSeed); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("dropout_probability is 1.5")));
+  parameters = {};
+  parameters.patch_share = -0.1;
+  EXPECT_THAT([&] { DepthSensor(camera, parameters, kSeed); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("patch_share is -0.1")));
   parameters = {};
   parameters.max_range_m = 0.1;
   EXPECT_THAT([&] { DepthSensor(camera, parameters, kSeed); },
