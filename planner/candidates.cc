@@ -7,10 +7,10 @@ namespace nanomap {
 
 Candidates::Candidates(const PlannerParameters& parameters, const PrimitiveLibrary& library,
                        const ChainSnapshot& snapshot, const Goal& goal, Time start, const Motion& at_start_W,
-                       double yaw_W_rad, const Trajectory* in_force)
+                       double yaw_W_rad, const Aside& aside, const Trajectory* in_force)
     : parameters_(parameters),
       library_(library),
-      space_(snapshot, parameters.risk),
+      space_(snapshot, parameters.risk, aside),
       goal_(goal),
       objective_(parameters.objective, goal, at_start_W.position_m),
       start_(start),

@@ -6,6 +6,7 @@
 
 #include "core/goal.h"
 #include "core/snapshot.h"
+#include "planner/aside.h"
 #include "planner/objective.h"
 #include "planner/planner_parameters.h"
 #include "planner/primitive_library.h"
@@ -39,9 +40,10 @@ struct Evidence {
 /// Allocates: no, except inside FLANN and for evidence. Threads: any number of readers.
 class Candidates {
  public:
+  /// @param aside     where the vehicle is beside `at_start_W`
   /// @param in_force  what is flown already, from `start` and `at_start_W` on; null: nothing is
   Candidates(const PlannerParameters& parameters, const PrimitiveLibrary& library, const ChainSnapshot& snapshot,
-             const Goal& goal, Time start, const Motion& at_start_W, double yaw_W_rad,
+             const Goal& goal, Time start, const Motion& at_start_W, double yaw_W_rad, const Aside& aside = {},
              const Trajectory* in_force = nullptr);
 
   /// Indices are below it.

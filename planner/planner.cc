@@ -20,7 +20,7 @@ struct Inputs {
   const VehicleState& state;
   const std::optional<Goal>& goal;
   Time now;
-  const Trajectory* in_force;
+  const InForce& in_force;
 };
 
 Consumed consumed(const Inputs& inputs) {
@@ -67,7 +67,8 @@ Task taskOf(const PlannerParameters& parameters, const PrimitiveLibrary& library
     goal.top_speed_m_s = std::min(goal.top_speed_m_s, parameters.limits.top_speed_m_s);
   }
   return {at_start_W, yaw_W_rad, hold, goal,
-          Candidates(parameters, library, inputs.snapshot, goal, inputs.now, at_start_W, yaw_W_rad, inputs.in_force)};
+          Candidates(parameters, library, inputs.snapshot, goal, inputs.now, at_start_W, yaw_W_rad,
+                     {inputs.in_force.aside_W_m, parameters.tracking.recovery_s}, inputs.in_force.rest)};
 }
 
 struct Choice {
@@ -172,7 +173,7 @@ double wantedHeading(const PlannerParameters& parameters, const Inputs& inputs, 
 Planner::Planner(const PlannerParameters& parameters) : parameters_(parameters) { check(parameters_); }
 
 Decision Planner::plan(const ChainSnapshot& snapshot, const VehicleState& state, const std::optional<Goal>& goal,
-                       Time now, const Trajectory* in_force) const {
+                       Time now, const InForce& in_force) const {
   const Inputs inputs{snapshot, state, goal, now, in_force};
   Decision decision;
   decision.stamp = now;
@@ -213,7 +214,7 @@ Decision Planner::plan(const ChainSnapshot& snapshot, const VehicleState& state,
 }
 
 Explanation Planner::explain(const ChainSnapshot& snapshot, const VehicleState& state, const std::optional<Goal>& goal,
-                             Time now, const Trajectory* in_force) const {
+                             Time now, const InForce& in_force) const {
   Explanation explanation;
   explanation.decision = plan(snapshot, state, goal, now, in_force);
   if (!explanation.decision.candidate) return explanation;

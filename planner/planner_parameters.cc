@@ -146,6 +146,7 @@ void check(const PlannerParameters& parameters) {
   check(parameters.heading);
   check(parameters.detour);
   requireNotNegative("tracking.max_position_error_m", parameters.tracking.max_position_error_m);
+  requireNotNegative("tracking.recovery_s", parameters.tracking.recovery_s);
   requireNotNegative("tracking.max_velocity_error_m_s", parameters.tracking.max_velocity_error_m_s);
   requirePositive("brake_after_s", parameters.brake_after_s);
   requireAtLeast("horizon.push_s", parameters.horizon.push_s, "brake_after_s", parameters.brake_after_s);

@@ -29,9 +29,10 @@ struct HorizonParameters {
 };
 
 /// How far the vehicle may be from the motion in force and still be taken to follow it. With 0 every plan starts from
-/// the state as measured.
+/// the state as measured. What is planned then is told from the motion in force on, and judged where the vehicle is.
 struct TrackingTolerance {
   double max_position_error_m = 0.5;
+  double recovery_s = 1.5;              ///< until it is back on the motion
   double max_velocity_error_m_s = 1.5;  ///< a vehicle lags behind its velocity wherever it is pushed
 };
 

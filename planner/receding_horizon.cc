@@ -26,8 +26,8 @@ Decision RecedingHorizon::step(const ChainSnapshot& snapshot, const VehicleState
                                const std::optional<Goal>& goal, Time now) {
   const VehicleState start = startState(measured, now);
   const std::optional<Trajectory> rest = restInForce(measured, now);
-  Decision decision =
-      planner_.plan(snapshot, start, steered(arrival_, detour_, start, goal), now, rest ? &*rest : nullptr);
+  Decision decision = planner_.plan(snapshot, start, steered(arrival_, detour_, start, goal), now,
+                                    {rest ? &*rest : nullptr, asideOf(measured, now)});
   arrival_.note(decision);
   detour_.note(decision.reason);
   nameDetour(decision, detour_);
@@ -47,8 +47,8 @@ Explanation RecedingHorizon::explain(const ChainSnapshot& snapshot, const Vehicl
   Arrival arrival = arrival_;
   Detour detour = detour_;
   const std::optional<Trajectory> rest = restInForce(measured, now);
-  Explanation explanation =
-      planner_.explain(snapshot, start, steered(arrival, detour, start, goal), now, rest ? &*rest : nullptr);
+  Explanation explanation = planner_.explain(snapshot, start, steered(arrival, detour, start, goal), now,
+                                             {rest ? &*rest : nullptr, asideOf(measured, now)});
   nameDetour(explanation.decision, detour);
   return explanation;
 }
@@ -86,6 +86,11 @@ VehicleState RecedingHorizon::startState(const VehicleState& measured, Time now)
   state.velocity_W_m_s = motion.velocity_m_s;
   state.acceleration_W_m_s2 = motion.acceleration_m_s2;
   return state;
+}
+
+Vec3 RecedingHorizon::asideOf(const VehicleState& measured, Time now) const {
+  if (!follows(measured, now)) return Vec3::Zero();
+  return measured.T_W_B.translation_m - motionAt(measured.stamp)->position_m;
 }
 
 std::optional<Motion> RecedingHorizon::motionAt(Time time) const {

@@ -17,7 +17,8 @@ namespace nanomap {
 /// is the chosen motion for the planner's `brake_after_s` and then leads to a standstill: nothing has to be switched
 /// when no new plan comes. The vehicle follows it if its measured position and velocity are within the planner's
 /// tracking tolerances of it; the plan then starts from the motion in force at `now`, and what is left of that, judged
-/// anew, is one of its candidates: a stop that was verified can be flown to its end. Else it starts from the state as
+/// anew, is one of its candidates: a stop that was verified can be flown to its end. Judged is where the vehicle is,
+/// and not where it should be, until it may be expected there (tracking.recovery_s). Else it starts from the state as
 /// measured: after a jump of the estimator, in a hand that carries the vehicle, over a recording of someone else's
 /// flight.
 ///
@@ -53,6 +54,8 @@ class RecedingHorizon {
 
  private:
   [[nodiscard]] bool follows(const VehicleState& measured, Time now) const;
+  /// From where the vehicle should be to where it is [m, W]; zero where the plan starts from the state as measured.
+  [[nodiscard]] Vec3 asideOf(const VehicleState& measured, Time now) const;
   [[nodiscard]] std::optional<Trajectory> restInForce(const VehicleState& measured, Time now) const;
 
   Planner planner_;

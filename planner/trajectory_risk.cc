@@ -72,6 +72,7 @@ double riskOf(const SampleEvidence& sample) {
 
 /// Where the vehicle may be at a moment.
 struct SpaceAhead::Place {
+  Vec3 mean_W_m;
   UncertainPoint x_B;
   double deviation_m;  ///< the largest of x_B
 };
@@ -84,9 +85,10 @@ struct SpaceAhead::Near {
   double collision_probability;
 };
 
-SpaceAhead::SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters)
+SpaceAhead::SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters, const Aside& aside)
     : snapshot_(snapshot),
       parameters_(parameters),
+      aside_(aside),
       with_room_(parameters.query),
       R_B_W_(snapshot.T_W_B.rotation.conjugate().toRotationMatrix()) {
   with_room_.margin_m += parameters.collision.vehicle_radius_m;
@@ -113,7 +115,9 @@ SpaceAhead::Place SpaceAhead::placeAt(const Motion& motion_W, double elapsed_s) 
   const double speed_m_s = motion_W.velocity_m_s.norm();
   const double horizontal_m = parameters_.horizontal.at(speed_m_s, elapsed_s);
   const double vertical_m = parameters_.vertical.at(speed_m_s, elapsed_s);
-  return {{R_B_W_ * (motion_W.position_m - snapshot_.T_W_B.translation_m), covariance_B(horizontal_m, vertical_m)},
+  const Vec3 mean_W_m = motion_W.position_m + aside_.at(elapsed_s);
+  return {mean_W_m,
+          {R_B_W_ * (mean_W_m - snapshot_.T_W_B.translation_m), covariance_B(horizontal_m, vertical_m)},
           std::max(horizontal_m, vertical_m)};
 }
 
@@ -151,7 +155,7 @@ SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool
 
   SampleEvidence sample;
   sample.elapsed_s = elapsed_s;
-  sample.position_W_m = motion_W.position_m;
+  sample.position_W_m = place.mean_W_m;
   sample.status = location.status;
   // Whole, the optional is stored in halves and read back at once, which waits for both.
   if (location.view_index) sample.view_index.emplace(*location.view_index);

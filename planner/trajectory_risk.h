@@ -10,6 +10,7 @@
 #include "core/classify.h"
 #include "core/query.h"
 #include "core/trajectory.h"
+#include "planner/aside.h"
 #include "planner/collision_probability.h"
 
 namespace nanomap {
@@ -76,7 +77,7 @@ struct SecondLook {
 /// What is known about one moment of a trajectory.
 struct SampleEvidence {
   double elapsed_s = 0.0;
-  Vec3 position_W_m = Vec3::Zero();
+  Vec3 position_W_m = Vec3::Zero();  ///< where the vehicle is expected: beside its motion, if it was before
   Status status = Status::kEmpty;
   std::optional<std::uint32_t> view_index;  ///< in the snapshot, 0 the newest
   std::optional<double> nearest_m;     ///< to the nearest measured point of that view, if it is near enough to matter
@@ -122,11 +123,12 @@ struct TrajectoryRisk {
   std::uint64_t second_looks = 0;
 };
 
-/// Judges trajectories by what a snapshot knows. Borrows both arguments.
+/// Judges trajectories by what a snapshot knows. Borrows snapshot and parameters.
 /// Allocates: no, except inside FLANN. Threads: any number of readers.
 class SpaceAhead {
  public:
-  SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters);
+  /// @param aside  where the vehicle is beside all of the trajectories, which start at one time
+  SpaceAhead(const ChainSnapshot& snapshot, const RiskParameters& parameters, const Aside& aside = {});
 
   /// A moment of a trajectory, `elapsed_s` after its start.
   /// @param stop_early  look for no neighbours where the status is a certain veto
@@ -170,6 +172,7 @@ class SpaceAhead {
 
   const ChainSnapshot& snapshot_;
   const RiskParameters& parameters_;
+  Aside aside_;
   QueryOptions with_room_;  ///< asks for views with room for the vehicle
   Mat3 R_B_W_;
 };

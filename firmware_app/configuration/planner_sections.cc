@@ -305,6 +305,11 @@ Section trackingSection() {
            "max_position_error_m", "Distance from where it should be.", {0.0, 10.0},
            [](auto& c) -> auto& { return c.planner.tracking.max_position_error_m; }),
        numberKey(
+           "recovery_s",
+           "How soon a vehicle beside the motion in force is taken to be back on it, coming evenly: motions are\n"
+           "judged where that takes it. 0: as if it were where it should be.",
+           {0.0, 60.0}, [](auto& c) -> auto& { return c.planner.tracking.recovery_s; }),
+       numberKey(
            "max_velocity_error_m_s", "Difference to the velocity that it should have.", {0.0, 100.0},
            [](auto& c) -> auto& { return c.planner.tracking.max_velocity_error_m_s; })},
       {}};

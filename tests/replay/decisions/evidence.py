@@ -46,7 +46,8 @@ class Space:
         settings = self.settings
         states = motion.at(elapsed)
         R_W_B, t_W_B = self.T_W_B[:3, :3], self.T_W_B[:3, 3]
-        mean_B = (states.position - t_W_B) @ R_W_B
+        mean_W = states.position + self._aside_W(motion, elapsed)
+        mean_B = (mean_W - t_W_B) @ R_W_B
         covariance_B, up_B = self._covariance_B(states, elapsed), R_W_B.T @ [0, 0, 1]
         found = search(self.steps, mean_B, covariance_B, up_B)
         nearest, collision = self._near(found, reach_m)
@@ -65,8 +66,15 @@ class Space:
             found.ambiguous[rows] |= beside.ambiguous
         in_bubble = np.linalg.norm(mean_B, axis=1) <= settings.bubble_m
         prior = np.where(in_bubble, 0.0, settings.prior[found.status])
-        return Evidence(elapsed, states.position, found.status, found.ambiguous, in_bubble, nearest,
+        return Evidence(elapsed, mean_W, found.status, found.ambiguous, in_bubble, nearest,
                         1 - (1 - prior) * (1 - collision))
+
+    def _aside_W(self, motion: Motion, elapsed: np.ndarray) -> np.ndarray:
+        """From the motion to where the vehicle is expected: it comes back evenly from where it is at the start."""
+        at_start = self.T_W_B[:3, 3] - motion.at(np.zeros(1)).position
+        recovery_s = self.settings.recovery_s
+        left = np.clip(1 - elapsed / recovery_s, 0, None) if recovery_s > 0 else np.zeros(len(elapsed))
+        return left[:, None] * at_start
 
     def on_samples(self, motion: Motion, steps: int) -> Evidence:
         """At the planner's moments (planner/stretches.h)."""

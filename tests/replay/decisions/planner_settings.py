@@ -42,6 +42,7 @@ class PlannerSettings:
     vertical: Deviation
     prior: np.ndarray  # by Status
     max_position_error_m: float
+    recovery_s: float
     max_velocity_error_m_s: float
 
     def horizontal_limit_m_s2(self, speed_m_s: float) -> float:
@@ -80,5 +81,6 @@ def read_planner_settings(path: Path, overrides: list[str]) -> PlannerSettings:
         vertical=Deviation(*(risk[f"vertical_{key}"] for key in ("base_m", "per_speed_s", "per_time_m_s"))),
         prior=np.array([risk[f"prior_{status.name.lower()}"] for status in Status], dtype=float),
         max_position_error_m=tracking["max_position_error_m"],
+        recovery_s=tracking["recovery_s"],
         max_velocity_error_m_s=tracking["max_velocity_error_m_s"],
     )

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "planner/brake.h"
@@ -61,6 +62,55 @@ TEST_F(RecedingHorizonOverAField, AVehicleThatLagsIsPlannedForOnTheMotionInForce
   EXPECT_EQ(second.trajectory.atStart().position_m, told.position_m);
   EXPECT_EQ(second.trajectory.atStart().velocity_m_s, told.velocity_m_s);
   EXPECT_EQ(second.trajectory.atStart().acceleration_m_s2, told.acceleration_m_s2) << "setpoints have no step";
+}
+
+TEST_F(RecedingHorizonOverAField, AVehicleBesideTheMotionInForceIsJudgedWhereItIsUntilItIsBack) {
+  const Time start = flight_.now();
+  (void)step(flight_.state(), start);
+  const Time now = start + kPeriod;
+  const Vec3 aside_m(-0.2, 0.3, 0.1);
+  Motion beside = *horizon_.motionAt(now);
+  beside.position_m += aside_m;
+  const Explanation explained = horizon_.explain(flight_.snapshot(), measuredAt(now, beside), goal_, now);
+
+  const double recovery_s = TrackingTolerance{}.recovery_s;
+  int before = 0;
+  int after = 0;
+  for (const CandidateExplanation& candidate : explained.candidates) {
+    const auto expectBeside = [&](const Trajectory& told, const std::vector<SampleEvidence>& evidence) {
+      for (const SampleEvidence& sample : evidence) {
+        const double left = std::max(0.0, 1.0 - sample.elapsed_s / recovery_s);
+        const Vec3 expected_m = told.sample(sample.elapsed_s).position_m + left * aside_m;
+        EXPECT_TRUE(sample.position_W_m.isApprox(expected_m, 1e-9)) << sample.position_W_m.transpose();
+        ++(left > 0.0 ? before : after);
+      }
+    };
+    expectBeside(candidate.trajectory, candidate.evidence.motion);
+    expectBeside(candidate.brake, candidate.evidence.brake);
+  }
+  EXPECT_GT(before, 1000);
+  EXPECT_GT(after, 100);
+}
+
+TEST_F(RecedingHorizonOverAField, AMeasurementThatIsOlderThanThePlanIsNotBesideTheMotion) {
+  const Time start = flight_.now();
+  Motion fast{{0.0, 0.0, 2.0}, {5.0, 0.0, 0.0}, Vec3::Zero()};
+  ASSERT_EQ(step(measuredAt(start, fast), start).reason, Reason::kFlying);
+  const Time stamp = start + kPeriod;
+  const Time now = stamp + 2 * kPeriod;
+  const VehicleState follows = measuredAt(stamp, *horizon_.motionAt(stamp));
+  const Explanation explained = horizon_.explain(flight_.snapshot(), follows, goal_, now);
+  const SampleEvidence& first = explained.candidates.front().evidence.motion.front();
+  EXPECT_TRUE(first.position_W_m.isApprox(horizon_.motionAt(now)->position_m, 1e-9));
+}
+
+TEST(Aside, IsLeftBehindEvenly) {
+  const Aside aside{{0.4, -0.2, 0.0}, 2.0};
+  EXPECT_EQ(aside.at(0.0), Vec3(0.4, -0.2, 0.0));
+  EXPECT_TRUE(aside.at(0.5).isApprox(Vec3(0.3, -0.15, 0.0)));
+  EXPECT_EQ(aside.at(2.0), Vec3::Zero());
+  EXPECT_EQ(aside.at(9.0), Vec3::Zero());
+  EXPECT_EQ((Aside{{0.4, -0.2, 0.0}, 0.0}.at(0.0)), Vec3::Zero());
 }
 
 TEST_F(RecedingHorizonOverAField, AVehicleThatIsElsewhereIsPlannedForAsMeasured) {
@@ -213,7 +263,7 @@ class RecedingHorizonHalfwayThroughABrake : public testing::Test {
     state.acceleration_W_m_s2 = motion.acceleration_m_s2;
     const Trajectory rest = brake_.rest(kNow);
     return flight.planner().plan(flight.snapshot(), state, goalAt({50.0, 0.0, 2.0}, 8.0), kNow,
-                                 keeps_it ? &rest : nullptr);
+                                 {.rest = keeps_it ? &rest : nullptr});
   }
 
   static constexpr Time kNow = Time(std::chrono::milliseconds(999'900));

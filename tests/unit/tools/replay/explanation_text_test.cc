@@ -67,7 +67,7 @@ TEST(ExplanationText, NamesTheBrakeInForce) {
   Trajectory in_force(moment.snapshot.stamp, {moment.state.T_W_B.translation_m, Vec3::Zero(), Vec3::Zero()});
   in_force.append(0.1, Vec3::Zero());
   const Explanation explanation =
-      Planner({}).explain(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp, &in_force);
+      Planner({}).explain(moment.snapshot, moment.state, moment.goal, moment.snapshot.stamp, {.rest = &in_force});
   Text text;
   writeExplanation(text, explanation, moment, kBrakeInForce);
   const std::string told = text.take();
