@@ -50,6 +50,13 @@ TEST_F(TroubledFlights, DriftOfOnePercentIsFlownThroughToTheGoal) {
   EXPECT_GT(flight.sensed.final_error_m, 0.5) << "it has not drifted";
 }
 
+TEST_F(TroubledFlights, AThirdOfEveryFrameLostInPatchesIsFlownThroughToTheGoal) {
+  options_.sensor.patch_share = 1.0 / 3.0;
+  const LockstepFlight flight = fly(60s, {});
+  expectSwiftlyAtTheGoal(flight);
+  EXPECT_LT(flight.sensed.depth_share, 0.6) << "too much of the frames is left for this to matter";
+}
+
 TEST_F(TroubledFlights, JumpOfTheEstimatorsWorldByAMetreIsBrakedForAndFlownOn) {
   const LockstepFlight flight = fly(60s, {.camera = {}, .estimator = {}, .jump = Jump{kBefalls, 1.0}});
   expectSwiftlyAtTheGoal(flight);
