@@ -30,7 +30,7 @@ class Planner {
 
   /// What to fly from `now` on. Whatever is wrong with state or goal, the decision says so.
   /// @param now       at or shortly after the state's stamp: the state is carried on to it at constant acceleration
-  /// @param in_force  of which the state is, if anything is flown
+  /// @param in_force  what is flown from `now` on, which the state is then on, and how far the vehicle is beside it
   /// Allocates: no, except inside FLANN.
   [[nodiscard]] Decision plan(const ChainSnapshot& snapshot, const VehicleState& state, const std::optional<Goal>& goal,
                               Time now, const InForce& in_force = {}) const;

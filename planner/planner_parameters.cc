@@ -16,6 +16,8 @@ namespace {
 // Together they keep the period of a sweep far above a nanosecond.
 constexpr double kFastestTurn_rad_s = 100.0;
 constexpr double kSmallestSweep_rad = 0.01;
+/// A vehicle that comes back sooner might pass something between two samples of its motion.
+constexpr double kSoonestRecovery_s = 0.5;
 
 void require(bool holds, const std::string& name, double value, const std::string& range) {
   if (holds) return;
@@ -146,7 +148,9 @@ void check(const PlannerParameters& parameters) {
   check(parameters.heading);
   check(parameters.detour);
   requireNotNegative("tracking.max_position_error_m", parameters.tracking.max_position_error_m);
-  requireNotNegative("tracking.recovery_s", parameters.tracking.recovery_s);
+  const double recovery_s = parameters.tracking.recovery_s;
+  require(recovery_s == 0.0 || (std::isfinite(recovery_s) && recovery_s >= kSoonestRecovery_s), "tracking.recovery_s",
+          recovery_s, "0, or at least " + std::to_string(kSoonestRecovery_s) + " s");
   requireNotNegative("tracking.max_velocity_error_m_s", parameters.tracking.max_velocity_error_m_s);
   requirePositive("brake_after_s", parameters.brake_after_s);
   requireAtLeast("horizon.push_s", parameters.horizon.push_s, "brake_after_s", parameters.brake_after_s);

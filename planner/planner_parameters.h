@@ -32,7 +32,7 @@ struct HorizonParameters {
 /// the state as measured. What is planned then is told from the motion in force on, and judged where the vehicle is.
 struct TrackingTolerance {
   double max_position_error_m = 0.5;
-  double recovery_s = 1.5;              ///< until it is back on the motion
+  double recovery_s = 2.0;              ///< until it is back on the motion; 0: it is judged where it should be
   double max_velocity_error_m_s = 1.5;  ///< a vehicle lags behind its velocity wherever it is pushed
 };
 

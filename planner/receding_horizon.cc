@@ -60,7 +60,7 @@ bool RecedingHorizon::follows(const VehicleState& measured, Time now) const {
   if (!timely || !in_force_ || in_force_->consumed.epoch != measured.epoch) return false;
 
   // NaN in either is outside of every tolerance.
-  const Motion expected = *motionAt(measured.stamp);
+  const Motion expected = expectedAt(measured.stamp);
   const double position_error_m = (measured.T_W_B.translation_m - expected.position_m).norm();
   const double velocity_error_m_s = (measured.velocity_W_m_s - expected.velocity_m_s).norm();
   return position_error_m <= parameters.tracking.max_position_error_m &&
@@ -90,7 +90,14 @@ VehicleState RecedingHorizon::startState(const VehicleState& measured, Time now)
 
 Vec3 RecedingHorizon::asideOf(const VehicleState& measured, Time now) const {
   if (!follows(measured, now)) return Vec3::Zero();
-  return measured.T_W_B.translation_m - motionAt(measured.stamp)->position_m;
+  return measured.T_W_B.translation_m - expectedAt(measured.stamp).position_m;
+}
+
+/// Of a state that is older than the motion in force: where that comes from.
+Motion RecedingHorizon::expectedAt(Time stamp) const {
+  const double before_s = toSeconds(in_force_->brake.start() - stamp);
+  if (before_s <= 0.0) return in_force_->brake.sample(stamp);
+  return advance(in_force_->brake.atStart(), Vec3::Zero(), -before_s);
 }
 
 std::optional<Motion> RecedingHorizon::motionAt(Time time) const {

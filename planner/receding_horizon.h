@@ -53,6 +53,7 @@ class RecedingHorizon {
   [[nodiscard]] const std::optional<Decision>& inForce() const { return in_force_; }
 
  private:
+  [[nodiscard]] Motion expectedAt(Time stamp) const;
   [[nodiscard]] bool follows(const VehicleState& measured, Time now) const;
   /// From where the vehicle should be to where it is [m, W]; zero where the plan starts from the state as measured.
   [[nodiscard]] Vec3 asideOf(const VehicleState& measured, Time now) const;

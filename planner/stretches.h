@@ -27,8 +27,9 @@ class Stretches {
   /// Calls `visit(motion_W, elapsed_s)` for all samples but the start, in turn, until one says false. Steps of a
   /// stretch are as many as the speeds at its ends tell; where one is longer than `longest_m` all the same, it is
   /// parted.
+  /// @return  did it never say false?
   template <class Visitor>
-  void visit(double longest_m, Visitor&& visit) const {
+  bool visit(double longest_m, Visitor&& visit) const {
     Motion begin_W = at(0.0);
     Vec3 last_W_m = begin_W.position_m;
     for (int i = 1; i <= count_; ++i) {
@@ -40,13 +41,14 @@ class Stretches {
         const int parts = partsOf((next_W.position_m - last_W_m).norm(), longest_m);
         for (int part = 1; part < parts; ++part) {
           const double elapsed_s = timeAt(step - 1 + static_cast<double>(part) / parts);
-          if (!visit(at(elapsed_s), elapsed_s)) return;
+          if (!visit(at(elapsed_s), elapsed_s)) return false;
         }
-        if (!visit(next_W, timeAt(step))) return;
+        if (!visit(next_W, timeAt(step))) return false;
         last_W_m = next_W.position_m;
       }
       begin_W = end_W;
     }
+    return true;
   }
 
  private:

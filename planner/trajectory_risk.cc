@@ -8,6 +8,9 @@
 namespace nanomap {
 namespace {
 
+/// What ends no faster stands at its end: a brake's end is computed.
+constexpr double kStanding_m_s = 1e-6;
+
 /// Of TrajectoryRisk::second_looks.
 constexpr std::uint64_t bitOf(std::size_t sample) {
   constexpr std::size_t kLast = 63;
@@ -74,7 +77,7 @@ double riskOf(const SampleEvidence& sample) {
 struct SpaceAhead::Place {
   Vec3 mean_W_m;
   UncertainPoint x_B;
-  double deviation_m;  ///< the largest of x_B
+  double deviation_m;  ///< no less than the largest of x_B
 };
 
 /// What a view has measured there.
@@ -116,9 +119,11 @@ SpaceAhead::Place SpaceAhead::placeAt(const Motion& motion_W, double elapsed_s) 
   const double horizontal_m = parameters_.horizontal.at(speed_m_s, elapsed_s);
   const double vertical_m = parameters_.vertical.at(speed_m_s, elapsed_s);
   const Vec3 mean_W_m = motion_W.position_m + aside_.at(elapsed_s);
+  const Vec3 return_B_m = R_B_W_ * aside_.deviation(elapsed_s);
   return {mean_W_m,
-          {R_B_W_ * (mean_W_m - snapshot_.T_W_B.translation_m), covariance_B(horizontal_m, vertical_m)},
-          std::max(horizontal_m, vertical_m)};
+          {R_B_W_ * (mean_W_m - snapshot_.T_W_B.translation_m),
+           covariance_B(horizontal_m, vertical_m) + return_B_m * return_B_m.transpose()},
+          std::hypot(std::max(horizontal_m, vertical_m), return_B_m.norm())};
 }
 
 /// @pre a view answers
@@ -147,6 +152,24 @@ bool SpaceAhead::hasRoom(const Near& near) const {
   const View& view = *snapshot_.views[*near.reply.view_index].view;
   const Vec3 half_size_C_m = near.reply.x_C.covariance_m2.diagonal().cwiseMax(0.0).cwiseSqrt();
   return contains(view.camera().frustum(), near.reply.x_C.mean_m, half_size_C_m.array() + with_room_.margin_m);
+}
+
+/// All samples of a trajectory but the start, in turn, until `visitor(motion_W, elapsed_s)` says false.
+template <class Visitor>
+void SpaceAhead::visit(const Trajectory& trajectory, int samples, Visitor&& visitor) const {
+  const double longest_m = parameters_.collision.vehicle_radius_m;
+  const Stretches stretches(trajectory, samples);
+  if (!stretches.visit(longest_m, visitor)) return;
+
+  const double end_s = stretches.end_s(stretches.count());
+  const Motion end_W = stretches.at(end_s);
+  const bool stands = end_W.velocity_m_s.norm() <= kStanding_m_s;
+  if (!stands || aside_.isBackAt(end_s)) return;
+  const int parts = std::max(1, static_cast<int>(std::ceil(aside_.at(end_s).norm() / longest_m)));
+  for (int part = 1; part <= parts; ++part) {
+    const double share = static_cast<double>(part) / parts;
+    if (!visitor(end_W, part == parts ? aside_.recovery_s : std::lerp(end_s, aside_.recovery_s, share))) return;
+  }
 }
 
 SampleEvidence SpaceAhead::assess(const Motion& motion_W, double elapsed_s, bool stop_early) const {
@@ -224,11 +247,10 @@ TrajectoryRisk SpaceAhead::assess(const Trajectory& trajectory, int samples, boo
   const SampleEvidence first = start != nullptr ? *start : assess(trajectory.atStart(), 0.0, stop_early);
   SampleEvidence last = first;
   if (goOn(first)) {
-    Stretches(trajectory, samples)
-        .visit(parameters_.collision.vehicle_radius_m, [&](const Motion& motion_W, double elapsed_s) {
-          last = assess(motion_W, elapsed_s, stop_early);
-          return goOn(last);
-        });
+    visit(trajectory, samples, [&](const Motion& motion_W, double elapsed_s) {
+      last = assess(motion_W, elapsed_s, stop_early);
+      return goOn(last);
+    });
   }
   return tally.result(first, last);
 }
@@ -252,7 +274,7 @@ void SpaceAhead::lookBeside(const Trajectory& trajectory, int samples, bool stop
   };
   const bool goes_on = goOn(trajectory.atStart(), 0.0);
   if (judged.first.needsSecondLook()) judged.first = sample;
-  if (goes_on) Stretches(trajectory, samples).visit(parameters_.collision.vehicle_radius_m, goOn);
+  if (goes_on) visit(trajectory, samples, goOn);
   if (judged.last.needsSecondLook() && sample.elapsed_s == judged.last.elapsed_s) judged.last = sample;
   judged.second_looks = 0;
 }

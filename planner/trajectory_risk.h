@@ -136,7 +136,8 @@ class SpaceAhead {
 
   /// A whole trajectory, in five stretches of equal time and even steps along each: `samples` at least, and as many as
   /// leave none longer than the vehicle's radius (planner/stretches.h). So neither a thin obstacle nor a hole as wide
-  /// as the vehicle falls between two samples.
+  /// as the vehicle falls between two samples. One that stands at its end, and is not back there from beside its motion
+  /// by then, is followed until it is.
   /// @param stop_early  stop as soon as the risk is above the constraint
   /// @param evidence    if given, every sample is appended, in the order of evaluation (allocates)
   /// @param start       assess() of the trajectory's start, if that is known: many may start alike
@@ -163,6 +164,8 @@ class SpaceAhead {
   struct Place;
   struct Near;
 
+  template <class Visitor>
+  void visit(const Trajectory& trajectory, int samples, Visitor&& visitor) const;
   [[nodiscard]] Place placeAt(const Motion& motion_W, double elapsed_s) const;
   [[nodiscard]] Near nearTo(const Place& place, const Location& location) const;
   [[nodiscard]] Mat3 covariance_B(double horizontal_std_m, double vertical_std_m) const;

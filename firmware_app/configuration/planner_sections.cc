@@ -307,7 +307,7 @@ Section trackingSection() {
        numberKey(
            "recovery_s",
            "How soon a vehicle beside the motion in force is taken to be back on it, coming evenly: motions are\n"
-           "judged where that takes it. 0: as if it were where it should be.",
+           "judged where that takes it, and brakes until it is. 0: as if it were where it should be; else 0.5 or more.",
            {0.0, 60.0}, [](auto& c) -> auto& { return c.planner.tracking.recovery_s; }),
        numberKey(
            "max_velocity_error_m_s", "Difference to the velocity that it should have.", {0.0, 100.0},

@@ -47,14 +47,16 @@ void losePatches(DepthImage& image, double share, Random& random) {
     const double middle_v = uniform(random, 0.0, image.height_px);
     const double half_u = image.width_px * uniform(random, kLeastHalfAxis, kMostHalfAxis);
     const double half_v = image.height_px * uniform(random, kLeastHalfAxis, kMostHalfAxis);
-    for (std::size_t i = 0; i < lost.size(); ++i) {
-      const auto width = static_cast<std::size_t>(image.width_px);
-      const double u = (static_cast<double>(i % width) - middle_u) / half_u;
-      const double v = (static_cast<double>(i / width) - middle_v) / half_v;
-      if (lost[i] || u * u + v * v >= 1.0) continue;
-      lost[i] = true;
-      image.pixels[i] = kNoReturn;
-      ++count;
+    const int end_u = std::min(static_cast<int>(middle_u + half_u) + 1, image.width_px);
+    const int end_v = std::min(static_cast<int>(middle_v + half_v) + 1, image.height_px);
+    for (int v = std::max(static_cast<int>(middle_v - half_v), 0); v < end_v; ++v) {
+      for (int u = std::max(static_cast<int>(middle_u - half_u), 0); u < end_u; ++u) {
+        const auto i = static_cast<std::size_t>(v * image.width_px + u);
+        if (lost[i] || std::hypot((u - middle_u) / half_u, (v - middle_v) / half_v) >= 1.0) continue;
+        lost[i] = true;
+        image.pixels[i] = kNoReturn;
+        ++count;
+      }
     }
   }
 }
@@ -79,7 +81,7 @@ DepthSensor::DepthSensor(const CameraModel& camera, const DepthSensorParameters&
   require(p.noise_quadratic_per_m >= 0.0, "noise_quadratic_per_m", p.noise_quadratic_per_m, "0 or more");
   require(p.dropout_probability >= 0.0 && p.dropout_probability <= 1.0, "dropout_probability", p.dropout_probability,
           "in 0..1");
-  require(p.patch_share >= 0.0 && p.patch_share <= 1.0, "patch_share", p.patch_share, "in 0..1");
+  require(p.patch_share >= 0.0 && p.patch_share <= 0.9, "patch_share", p.patch_share, "in 0..0.9");
   require(p.stereo_baseline_m >= 0.0, "stereo_baseline_m", p.stereo_baseline_m, "0 or more");
   require(p.disparity_step_px >= 0.0, "disparity_step_px", p.disparity_step_px, "0 or more");
 }

@@ -13,6 +13,8 @@ from search import CONTAINED, Found, newest_holding, search
 from tail import NEGLIGIBLE_SIGMAS, tail
 
 STRETCHES = 5
+STANDING_M_S = 1e-6
+RETURN_DEVIATION = 0.25  # planner/aside.h
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,7 @@ class Space:
         R_W_B, t_W_B = self.T_W_B[:3, :3], self.T_W_B[:3, 3]
         mean_W = states.position + self._aside_W(motion, elapsed)
         mean_B = (mean_W - t_W_B) @ R_W_B
-        covariance_B, up_B = self._covariance_B(states, elapsed), R_W_B.T @ [0, 0, 1]
+        covariance_B, up_B = self._covariance_B(motion, states, elapsed), R_W_B.T @ [0, 0, 1]
         found = search(self.steps, mean_B, covariance_B, up_B)
         nearest, collision = self._near(found, reach_m)
         if settings.look_beside:
@@ -71,14 +73,25 @@ class Space:
 
     def _aside_W(self, motion: Motion, elapsed: np.ndarray) -> np.ndarray:
         """From the motion to where the vehicle is expected: it comes back evenly from where it is at the start."""
-        at_start = self.T_W_B[:3, 3] - motion.at(np.zeros(1)).position
+        return self._left(elapsed)[:, None] * self._aside_at_start_W(motion)
+
+    def _aside_at_start_W(self, motion: Motion) -> np.ndarray:
+        return self.T_W_B[:3, 3] - motion.at(np.zeros(1)).position[0]
+
+    def _left(self, elapsed: np.ndarray) -> np.ndarray:
         recovery_s = self.settings.recovery_s
-        left = np.clip(1 - elapsed / recovery_s, 0, None) if recovery_s > 0 else np.zeros(len(elapsed))
-        return left[:, None] * at_start
+        return np.clip(1 - elapsed / recovery_s, 0, None) if recovery_s > 0 else np.zeros(len(elapsed))
 
     def on_samples(self, motion: Motion, steps: int) -> Evidence:
-        """At the planner's moments (planner/stretches.h)."""
-        return self.on(motion, sample_times(motion, steps, self.settings.radius_m))
+        """At the planner's moments (planner/stretches.h), and on until a vehicle that stands is back."""
+        radius_m = self.settings.radius_m
+        times = sample_times(motion, steps, radius_m)
+        end = np.array([motion.duration])
+        aside_m = float(np.linalg.norm(self._aside_W(motion, end)))
+        if aside_m > 0 and np.linalg.norm(motion.at(end).velocity) <= STANDING_M_S:
+            parts = max(1, math.ceil(aside_m / radius_m))
+            times = np.concatenate([times, np.linspace(motion.duration, self.settings.recovery_s, parts + 1)[1:]])
+        return self.on(motion, times)
 
     def _near(self, found: Found, reach_m: float) -> tuple[np.ndarray, np.ndarray]:
         """Distance to the nearest point that the answering views have measured, and the chance to touch it."""
@@ -102,13 +115,15 @@ class Space:
             cramped[rows] = inside < 0
         return cramped
 
-    def _covariance_B(self, states: States, elapsed: np.ndarray) -> np.ndarray:
+    def _covariance_B(self, motion: Motion, states: States, elapsed: np.ndarray) -> np.ndarray:
         speed = np.linalg.norm(states.velocity, axis=1)
         horizontal, vertical = (growth.at(speed, elapsed) for growth in (self.settings.horizontal,
                                                                         self.settings.vertical))
         variances_W = np.column_stack([horizontal, horizontal, vertical])**2
         R_B_W = self.T_W_B[:3, :3].T
-        return np.einsum("ij,nj,kj->nik", R_B_W, variances_W, R_B_W)
+        back_W = RETURN_DEVIATION * (1 - self._left(elapsed))[:, None] * self._aside_at_start_W(motion)
+        back_B = back_W @ R_B_W.T if self.settings.recovery_s > 0 else np.zeros((len(elapsed), 3))
+        return (np.einsum("ij,nj,kj->nik", R_B_W, variances_W, R_B_W) + np.einsum("ni,nj->nij", back_B, back_B))
 
     def _points_of(self, view: int) -> np.ndarray:
         key = self.steps[view].view
