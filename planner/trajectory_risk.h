@@ -17,8 +17,9 @@ namespace nanomap {
 
 /// How uncertain the vehicle is about where it will be: a standard deviation in each horizontal direction or vertically
 /// that grows with speed and time. The defaults cover how far the simulated vehicle of tools/sim strays from what it
-/// was told (0.15 m in three dimensions, root mean square, on forest flights at up to 7.7 m/s); a heavier vehicle needs
-/// its own. The authors' are larger and have no term of time.
+/// was told (0.15 m in three dimensions, root mean square, on forest flights at up to 7.7 m/s), though where it is
+/// beside that when a plan starts is known (planner/aside.h); a heavier vehicle needs its own. The authors' are larger
+/// and have no term of time.
 struct DeviationGrowth {
   double base_m = 0.0;
   double per_speed_s = 0.0;
