@@ -17,6 +17,12 @@ using testing::ThrowsMessage;
 
 TEST(PlannerParameters, DefaultsAreValid) { EXPECT_NO_THROW(Planner(PlannerParameters{})); }
 
+TEST(PlannerParameters, VehiclesMayBeTakenToBeWhereTheyShouldBe) {
+  PlannerParameters parameters;
+  parameters.tracking.recovery_s = 0.0;
+  EXPECT_NO_THROW(Planner{parameters});
+}
+
 TEST(PlannerParameters, ABadOneIsNamed) {
   struct Case {
     const char* name;
@@ -42,6 +48,8 @@ TEST(PlannerParameters, ABadOneIsNamed) {
       {"risk.horizontal.base_m", [&](auto& p) { p.risk.horizontal.base_m = nan; }},
       {"heading.max_rate_rad_s", [](auto& p) { p.heading.max_rate_rad_s = 0.1; }},
       {"heading.sweep_amplitude_rad", [](auto& p) { p.heading.sweep_amplitude_rad = 0.0; }},
+      {"tracking.recovery_s", [](auto& p) { p.tracking.recovery_s = 0.4; }},
+      {"tracking.recovery_s", [&](auto& p) { p.tracking.recovery_s = nan; }},
       {"brake_after_s", [](auto& p) { p.brake_after_s = 0.0; }},
       {"samples", [](auto& p) { p.samples = 0; }},
       {"brake_samples", [](auto& p) { p.brake_samples = 0; }},
