@@ -16,10 +16,10 @@
 namespace nanomap {
 
 /// How uncertain the vehicle is about where it will be: a standard deviation in each horizontal direction or vertically
-/// that grows with speed and time. The defaults cover how far the simulated vehicle of tools/sim strays from what it
-/// was told (0.15 m in three dimensions, root mean square, on forest flights at up to 7.7 m/s), though where it is
-/// beside that when a plan starts is known (planner/aside.h); a heavier vehicle needs its own. The authors' are larger
-/// and have no term of time.
+/// that grows with speed and time. Where it is beside its motion when a plan starts is known (planner/aside.h), so this
+/// is of the rest. The defaults are what the simulated vehicle of tools/sim strays by from where it was expected
+/// (tools/sim/README.md): its speed hardly matters, the time does. A heavier vehicle needs its own. The authors' are
+/// larger and have no term of time.
 struct DeviationGrowth {
   double base_m = 0.0;
   double per_speed_s = 0.0;
@@ -42,8 +42,8 @@ struct DeviationGrowth {
 
 struct RiskParameters {
   double max_risk = 0.001;  ///< the chance constraint of the paper
-  DeviationGrowth horizontal{.base_m = 0.05, .per_speed_s = 0.012, .per_time_m_s = 0.02};
-  DeviationGrowth vertical{.base_m = 0.04, .per_speed_s = 0.008, .per_time_m_s = 0.01};
+  DeviationGrowth horizontal{.base_m = 0.04, .per_speed_s = 0.002, .per_time_m_s = 0.03};
+  DeviationGrowth vertical{.base_m = 0.03, .per_speed_s = 0.002, .per_time_m_s = 0.03};
   double bubble_margin_m = 0.2;  ///< beyond the vehicle's radius: where no frustum reaches
   CollisionParameters collision;
   QueryOptions query;

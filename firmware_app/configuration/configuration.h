@@ -14,6 +14,7 @@
 #include "drivers/mavlink/obstacle_distance.h"
 #include "drivers/mavlink/odometry.h"
 #include "firmware_app/realtime/thread_layout.h"
+#include "firmware_app/safety/feedforward.h"
 #include "firmware_app/safety/safety_parameters.h"
 #include "planner/planner_parameters.h"
 
@@ -54,8 +55,8 @@ struct MavlinkParameters {
   LinkParameters link;
   AlignmentParameters alignment;
   double setpoint_rate_hz = 50.0;
-  Duration setpoint_lead = std::chrono::milliseconds(25);  ///< from sending one to when it is acted on, in the mean
-  bool send_obstacles = true;                              ///< OBSTACLE_DISTANCE
+  Feedforward feedforward;
+  bool send_obstacles = true;  ///< OBSTACLE_DISTANCE
   ObstacleBand obstacle_band;
   bool send_odometry = false;  ///< ODOMETRY: the autopilot flies by our estimator
   OdometrySpread odometry;

@@ -32,7 +32,17 @@ Section mavlinkSection() {
            "setpoint_lead_s",
            "A setpoint is the motion's place so much later than it is sent: half a period until the next one, the way\n"
            "there and the autopilot's own period, or the vehicle is that time behind.",
-           {0.0, 0.2}, [](auto& c) -> auto& { return c.mavlink.setpoint_lead; }),
+           {0.0, 0.2}, [](auto& c) -> auto& { return c.mavlink.feedforward.setpoint_lead; }),
+       durationKey(
+           "tilt_lag_s",
+           "The acceleration told is that of so much later still, as the vehicle has to tilt before it accelerates:\n"
+           "the time constant of its attitude. Too little leaves it behind, too much ahead.",
+           {0.0, 0.5}, [](auto& c) -> auto& { return c.mavlink.feedforward.tilt_lag; }),
+       numberKey(
+           "drag_1_s",
+           "And this times the velocity is added [1/s], for the drag of the air, which autopilots do not know: where\n"
+           "it takes d radians of tilt to hold a speed, that is 9.81 d by the speed.",
+           {0.0, 2.0}, [](auto& c) -> auto& { return c.mavlink.feedforward.drag_1_s; }),
        booleanKey(
            "send_obstacles", "Send OBSTACLE_DISTANCE: the nearest obstacles of the newest depth frame, by bearing.",
            [](auto& c) -> auto& { return c.mavlink.send_obstacles; }),

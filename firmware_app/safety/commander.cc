@@ -36,12 +36,12 @@ LocalNedTarget toNed(Time now, const CommandedMotion& commanded, const NedFromWo
 }  // namespace
 
 Commander::Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s,
-                     Duration setpoint_lead, AutopilotWorld autopilot_world)
+                     const Feedforward& feedforward, AutopilotWorld autopilot_world)
     : machine_(checked(parameters)),
       limits_(limits),
       in_force_(autopilot_world),
       heading_(max_yaw_rate_rad_s),
-      setpoint_lead_(setpoint_lead) {}
+      feedforward_(feedforward) {}
 
 bool isRefused(const CommandInputs& inputs) {
   return inputs.recording && !(inputs.autopilot.linked && inputs.autopilot.simulated);
@@ -110,7 +110,7 @@ std::optional<CommandedMotion> Commander::motion(Time now, Stream stream, const 
     beginHeading(now, *state);
   }
   const double yaw_W_rad = heading_.follow(now, decision.yaw_W_rad);
-  return CommandedMotion{decision.brake.sample(now + setpoint_lead_), yaw_W_rad, stream == Stream::kMotion,
+  return CommandedMotion{feedforward_.sample(decision.brake, now), yaw_W_rad, stream == Stream::kMotion,
                          in_force_.sequence()};
 }
 

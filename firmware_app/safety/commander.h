@@ -8,6 +8,7 @@
 #include "drivers/mavlink/autopilot_state.h"
 #include "drivers/mavlink/message_json.h"
 #include "drivers/mavlink/setpoint.h"
+#include "firmware_app/safety/feedforward.h"
 #include "firmware_app/safety/heading_limiter.h"
 #include "firmware_app/safety/motion_in_force.h"
 #include "firmware_app/safety/state_machine.h"
@@ -71,10 +72,10 @@ class Commander {
  public:
   /// @param limits              of every motion that is flown
   /// @param max_yaw_rate_rad_s  how fast the heading handed out turns
-  /// @param setpoint_lead       from a setpoint to when it is acted on
+  /// @param feedforward         what the vehicle is behind its setpoints by
   /// @throws std::invalid_argument naming the parameter that is wrong
   Commander(const SafetyParameters& parameters, const MotionLimits& limits, double max_yaw_rate_rad_s,
-            Duration setpoint_lead, AutopilotWorld autopilot_world);
+            const Feedforward& feedforward, AutopilotWorld autopilot_world);
 
   [[nodiscard]] Command step(Time now, const CommandInputs& inputs);
 
@@ -92,7 +93,7 @@ class Commander {
   MotionInForce in_force_;
   HeadingLimiter heading_;
   std::uint32_t heading_epoch_ = 0;  ///< of the world that it is in
-  Duration setpoint_lead_;
+  Feedforward feedforward_;
 };
 
 }  // namespace nanomap

@@ -36,7 +36,7 @@ SinkStage::SinkStage(const SinkParameters& parameters, AutopilotLink& link, cons
       link_(link),
       ports_(ports),
       alignment_(parameters.alignment),
-      commander_(parameters.safety, parameters.limits, parameters.max_yaw_rate_rad_s, parameters.setpoint_lead,
+      commander_(parameters.safety, parameters.limits, parameters.max_yaw_rate_rad_s, parameters.feedforward,
                  parameters.send_odometry ? AutopilotWorld::kOurs : AutopilotWorld::kItsOwn) {
   inputs_.recording = parameters.recording;
 }

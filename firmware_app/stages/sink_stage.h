@@ -20,7 +20,7 @@ struct SinkParameters {
   MotionLimits limits{};
   AlignmentParameters alignment{};
   double max_yaw_rate_rad_s = 1.0;
-  Duration setpoint_lead{};    ///< from sending a setpoint to when it is acted on
+  Feedforward feedforward{};
   bool send_obstacles = true;  ///< OBSTACLE_DISTANCE, at 10 Hz
   ObstacleBand obstacle_band{};
   QueryOptions query{};        ///< by which obstacles are judged

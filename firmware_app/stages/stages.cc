@@ -14,7 +14,7 @@ SinkParameters sinkParameters(const Configuration& configuration) {
   sink.limits = configuration.planner.limits;
   sink.alignment = configuration.mavlink.alignment;
   sink.max_yaw_rate_rad_s = configuration.planner.heading.max_rate_rad_s;
-  sink.setpoint_lead = configuration.mavlink.setpoint_lead;
+  sink.feedforward = configuration.mavlink.feedforward;
   sink.send_obstacles = configuration.mavlink.send_obstacles;
   sink.obstacle_band = configuration.mavlink.obstacle_band;
   sink.query = configuration.planner.risk.query;

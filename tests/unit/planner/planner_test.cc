@@ -246,7 +246,7 @@ TEST(Planner, WithEverythingVetoedItSaysSo) {
 TEST(Planner, WhileItBrakesTheCameraLooksWhereItFlies) {
   PlannerParameters parameters = test::flightParameters();
   parameters.heading.reach_s = 2.0;
-  Flight flight(DrawnWorld{{Block{{3.5, -40.0, 0.0}, {4.0, 40.0, 20.0}}}}, {0.0, 0.0, 2.0}, 0.0, parameters);
+  Flight flight(DrawnWorld{{Block{{3.2, -40.0, 0.0}, {3.7, 40.0, 20.0}}}}, {0.0, 0.0, 2.0}, 0.0, parameters);
   flight.look();
   VehicleState state = flight.state();
   state.velocity_W_m_s = {4.0, 1.0, 0.0};
@@ -256,7 +256,7 @@ TEST(Planner, WhileItBrakesTheCameraLooksWhereItFlies) {
   EXPECT_NEAR(braking.yaw_W_rad, std::atan2(1.0, 4.0), 0.01);
 
   state.velocity_W_m_s.setZero();
-  state.T_W_B.translation_m.x() += 2.7;
+  state.T_W_B.translation_m.x() += 2.4;
   const Decision standing = flight.planner().plan(flight.snapshot(), state, goal, flight.now());
   ASSERT_EQ(standing.reason, Reason::kBlocked);
   EXPECT_NEAR(standing.yaw_W_rad, sweepOffset(flight.now(), parameters.heading), 1e-9);

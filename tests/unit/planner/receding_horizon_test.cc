@@ -287,7 +287,7 @@ TEST(RecedingHorizon, TowardsAWallEveryPlanIsVerified) {
   for (const double distance_m : {6.0, 8.0, 10.0, 12.0}) {
     Flight flight(DrawnWorld{{test::Block{{distance_m, -40.0, 0.0}, {distance_m + 1.0, 40.0, 20.0}}}}, {0.0, 0.0, 2.0},
                   0.0);
-    for (const Decision& decision : flight.fly(goalAt({50.0, 0.0, 2.0}, 8.0), 6.0)) {
+    for (const Decision& decision : flight.fly(goalAt({50.0, 0.0, 2.0}, 8.0), 5.0)) {
       EXPECT_TRUE(decision.brake_verified) << distance_m << " m: " << toString(decision.reason);
       kept += decision.reason == Reason::kKeeping;
     }

@@ -10,7 +10,7 @@ namespace nanomap {
 namespace {
 
 constexpr double kTolerance_m = 1e-4;  // of a float, tens of metres away
-constexpr Duration kSetpointLead = std::chrono::milliseconds(25);
+constexpr Feedforward kFeedforward{.setpoint_lead = std::chrono::milliseconds(25)};
 constexpr double kDeg = std::numbers::pi / 180.0;
 
 /// A decision that flies along x from `position` at `speed` for a second and stands then.
@@ -64,13 +64,13 @@ class CommanderInFlight : public ::testing::Test {
   }
 
   static inline const Vec3 kHere_W_m{5.0, 2.0, 1.5};
-  Commander commander_{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kItsOwn};
+  Commander commander_{SafetyParameters{}, MotionLimits{}, 1.0, kFeedforward, AutopilotWorld::kItsOwn};
   Time now_ = atMs(10'000);
   Command command_;
 };
 
 TEST(Commander, HoldsWhereTheVehicleIsWhileReady) {
-  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kItsOwn};
+  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kFeedforward, AutopilotWorld::kItsOwn};
   const NedFromWorld T_NED_W(70.0 * kDeg, {100.0, -50.0, -3.0});
   const Vec3 here_W{5.0, 2.0, 1.5};
   const Command command = commander.step(atMs(0), inputsAt(atMs(0), here_W, 3.0));
@@ -83,7 +83,7 @@ TEST(Commander, HoldsWhereTheVehicleIsWhileReady) {
 }
 
 TEST(Commander, SendsNothingWithoutAlignment) {
-  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kItsOwn};
+  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kFeedforward, AutopilotWorld::kItsOwn};
   CommandInputs inputs = inputsAt(atMs(0), Vec3::Zero(), 0.0);
   inputs.alignment = {};
   const Command command = commander.step(atMs(0), inputs);
@@ -106,7 +106,7 @@ TEST(IsRefused, RecordingIsToldToASimulatedAutopilotThatIsHeardAndToNoOther) {
 }
 
 TEST(Commander, RecordingWaitsForTheAutopilotBeforeItAsksForASimulatedOne) {
-  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kItsOwn};
+  Commander commander{SafetyParameters{}, MotionLimits{}, 1.0, kFeedforward, AutopilotWorld::kItsOwn};
   CommandInputs inputs = inputsAt(atMs(0), Vec3::Zero(), 0.0);
   inputs.recording = true;
   EXPECT_TRUE(commander.step(atMs(0), inputs).verdict.faults.has(Fault::kLive));
@@ -123,7 +123,7 @@ TEST_F(CommanderInFlight, SamplesTheMotionForTheMomentWhenItIsActedOn) {
   now_ += kStep;
   const Command command = commander_.step(now_, inputs);
   ASSERT_TRUE(command.motion);
-  const double elapsed_s = toSeconds(now_ + kSetpointLead - inputs.plan.in_force->stamp);
+  const double elapsed_s = toSeconds(now_ + kFeedforward.setpoint_lead - inputs.plan.in_force->stamp);
   const Vec3 expected_W = kHere_W_m + Vec3(4.0 * elapsed_s - 2.0 * elapsed_s * elapsed_s, 0.0, 0.0);
   EXPECT_NEAR((command.target.position_NED_m.cast<double>() - inputs.alignment.T_NED_W->point(expected_W)).norm(), 0.0,
               kTolerance_m);
@@ -202,7 +202,7 @@ TEST_F(CommanderInFlight, SilenceAfterAJumpOfTheAutopilotDoesNotBringTheOldPlace
 
 /// It is told the new poses, and takes its world along: the old places are elsewhere in it.
 TEST_F(CommanderInFlight, JumpOfAnEstimatorThatTheAutopilotFliesByIsBrakedForWithVelocitiesOnly) {
-  commander_ = Commander(SafetyParameters{}, MotionLimits{}, 1.0, kSetpointLead, AutopilotWorld::kOurs);
+  commander_ = Commander(SafetyParameters{}, MotionLimits{}, 1.0, kFeedforward, AutopilotWorld::kOurs);
   for (int i = 0; i < 50; ++i, now_ += kStep) (void)commander_.step(now_, inputsAt(now_, kHere_W_m, 0.0));
   CommandInputs inputs = ordered(inputsAt(now_, kHere_W_m, 4.0));
   Command command = commander_.step(now_, inputs);
