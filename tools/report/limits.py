@@ -1,6 +1,7 @@
 """What the planner was held to, from its configuration."""
 
 import tomllib
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,12 +14,45 @@ class Limits:
     vehicle_radius_m: float
 
 
+@dataclass(frozen=True)
+class DeviationGrowth:
+    """planner/trajectory_risk.h"""
+
+    base_m: float
+    per_speed_s: float
+    per_time_m_s: float
+
+    def at(self, speed_m_s, elapsed_s):
+        return self.base_m + self.per_speed_s * speed_m_s + self.per_time_m_s * elapsed_s
+
+
+@dataclass(frozen=True)
+class TrackingAllowance:
+    """What plans take a vehicle to be off its motion by."""
+
+    horizontal: DeviationGrowth
+    vertical: DeviationGrowth
+    recovery_s: float  # planner/aside.h
+
+
 def read_limits(config: Path | None) -> Limits:
     """Of a configuration file; what it leaves out, or None, is the module's default."""
+    value = _values(config)
+    return Limits(max_risk=value("risk", "max_risk"), vehicle_radius_m=value("vehicle", "radius_m"))
+
+
+def read_tracking_allowance(config: Path | None) -> TrackingAllowance:
+    """Likewise."""
+    value = _values(config)
+
+    def growth(direction: str) -> DeviationGrowth:
+        return DeviationGrowth(*(value("risk", f"{direction}_{key}") for key in
+                                 ("base_m", "per_speed_s", "per_time_m_s")))
+
+    return TrackingAllowance(growth("horizontal"), growth("vertical"), value("tracking", "recovery_s"))
+
+
+def _values(config: Path | None) -> Callable[[str, str], float]:
     told = tomllib.loads(config.read_text()) if config else {}
     defaults = tomllib.loads(DEFAULTS.read_text())
-
-    def value(section: str, key: str) -> float:
-        return float(told.get(section, {}).get(key, defaults[section][key]))
-
-    return Limits(max_risk=value("risk", "max_risk"), vehicle_radius_m=value("vehicle", "radius_m"))
+    return lambda section, key: float(told.get(section, {}).get(key, defaults[section][key]))
