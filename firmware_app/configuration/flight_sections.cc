@@ -31,7 +31,7 @@ Section mavlinkSection() {
        durationKey(
            "setpoint_lead_s",
            "A setpoint is the motion's place so much later than it is sent: half a period until the next one, the way\n"
-           "there and the autopilot's own period, or the vehicle is that time behind.",
+           "there and half the autopilot's own period, or the vehicle is that time behind.",
            {0.0, 0.2}, [](auto& c) -> auto& { return c.mavlink.feedforward.setpoint_lead; }),
        durationKey(
            "tilt_lag_s",

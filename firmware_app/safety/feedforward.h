@@ -10,7 +10,7 @@ namespace nanomap {
 /// What a vehicle that follows its setpoints is behind them by, so that they are told earlier. The defaults are the
 /// simulated vehicle's (tools/simulation/multicopter.h); less than a vehicle's own is always better than none.
 struct Feedforward {
-  Duration setpoint_lead = std::chrono::milliseconds(25);  ///< from sending one to when it is acted on, in the mean
+  Duration setpoint_lead = std::chrono::milliseconds(15);  ///< from sending one to when it is acted on, in the mean
   Duration tilt_lag = std::chrono::milliseconds(80);  ///< from then until the vehicle accelerates so: it tilts first
   double drag_1_s = 0.1;                              ///< deceleration per speed that no autopilot's model holds
 
