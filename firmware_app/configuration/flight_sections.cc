@@ -36,12 +36,13 @@ Section mavlinkSection() {
        durationKey(
            "tilt_lag_s",
            "The acceleration told is that of so much later still, as the vehicle has to tilt before it accelerates:\n"
-           "the time constant of its attitude. Too little leaves it behind, too much ahead.",
+           "the time constant of its attitude. Too little leaves it behind, too much ahead. Set drag_1_s as well: in\n"
+           "a brake the two oppose each other, and one without the other is worse than neither.",
            {0.0, 0.5}, [](auto& c) -> auto& { return c.mavlink.feedforward.tilt_lag; }),
        numberKey(
            "drag_1_s",
-           "And this times the velocity is added [1/s], for the drag of the air, which autopilots do not know: where\n"
-           "it takes d radians of tilt to hold a speed, that is 9.81 d by the speed.",
+           "And this times the velocity is added [1/s], for the drag of the air, which autopilots do not know: 9.81\n"
+           "times the tilt [rad] that holds a steady speed in still air, divided by that speed [m/s].",
            {0.0, 2.0}, [](auto& c) -> auto& { return c.mavlink.feedforward.drag_1_s; }),
        booleanKey(
            "send_obstacles", "Send OBSTACLE_DISTANCE: the nearest obstacles of the newest depth frame, by bearing.",

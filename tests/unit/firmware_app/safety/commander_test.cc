@@ -10,7 +10,8 @@ namespace nanomap {
 namespace {
 
 constexpr double kTolerance_m = 1e-4;  // of a float, tens of metres away
-constexpr Feedforward kFeedforward{.setpoint_lead = std::chrono::milliseconds(25)};
+constexpr Feedforward kFeedforward{
+    .setpoint_lead = std::chrono::milliseconds(25), .tilt_lag = std::chrono::milliseconds(60), .drag_1_s = 0.25};
 constexpr double kDeg = std::numbers::pi / 180.0;
 
 /// A decision that flies along x from `position` at `speed` for a second and stands then.
@@ -127,7 +128,11 @@ TEST_F(CommanderInFlight, SamplesTheMotionForTheMomentWhenItIsActedOn) {
   const Vec3 expected_W = kHere_W_m + Vec3(4.0 * elapsed_s - 2.0 * elapsed_s * elapsed_s, 0.0, 0.0);
   EXPECT_NEAR((command.target.position_NED_m.cast<double>() - inputs.alignment.T_NED_W->point(expected_W)).norm(), 0.0,
               kTolerance_m);
-  EXPECT_NEAR(command.target.velocity_NED_m_s.cast<double>().norm(), 4.0 - 4.0 * elapsed_s, 1e-5);
+  const double speed_m_s = 4.0 - 4.0 * elapsed_s;
+  EXPECT_NEAR(command.target.velocity_NED_m_s.cast<double>().norm(), speed_m_s, 1e-5);
+  // A deceleration of 4 m/s^2, of which the air does its part.
+  EXPECT_NEAR(command.target.acceleration_NED_m_s2.cast<double>().norm(), 4.0 - kFeedforward.drag_1_s * speed_m_s,
+              1e-5);
 }
 
 TEST_F(CommanderInFlight, StalePlanIsFlownToAStandstillAndThenLeft) {

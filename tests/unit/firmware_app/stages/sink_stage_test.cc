@@ -73,5 +73,25 @@ TEST(SinkStage, RecordingIsFlownWithASimulatedAutopilot) {
   EXPECT_EQ(flight.state(), State::kFlying);
 }
 
+TEST(SinkStage, TellsMotionsAheadByWhatTheVehicleIsBehind) {
+  Configuration configuration = FlightOnAFakeClock::configuration();
+  configuration.mavlink.feedforward = {.setpoint_lead = 50ms, .tilt_lag = 200ms, .drag_1_s = 0.7};
+  FlightOnAFakeClock flight(configuration);
+  flight.run(5s);
+  flight.order();
+  flight.run(2s);
+  std::size_t moving = 0;
+  for (const SentSetpoint& sent : flight.setpoints()) {
+    if (!sent.motion || !sent.motion->decision) continue;
+    const MadeDecision* made = flight.decision(*sent.motion->decision);
+    ASSERT_TRUE(made);
+    const Motion expected_W = configuration.mavlink.feedforward.sample(made->decision.brake, sent.stamp);
+    EXPECT_EQ(sent.motion->motion_W.position_m, expected_W.position_m);
+    EXPECT_EQ(sent.motion->motion_W.acceleration_m_s2, expected_W.acceleration_m_s2);
+    if (expected_W.velocity_m_s.norm() > 1.0) ++moving;
+  }
+  EXPECT_GT(moving, 20U);
+}
+
 }  // namespace
 }  // namespace nanomap
