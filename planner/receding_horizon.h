@@ -11,7 +11,7 @@
 namespace nanomap {
 
 /// Planning again and again while the vehicle flies what was planned before: holds the decision in force, and starts
-/// each plan from it, so that setpoints of one plan join those of the next without a step.
+/// each plan from it, so that places and velocities of one plan join those of the next without a step.
 ///
 /// The decision in force is the last one that may be flown (`isFlyable`), and what is flown of it is its brake, which
 /// is the chosen motion for the planner's `brake_after_s` and then leads to a standstill: nothing has to be switched

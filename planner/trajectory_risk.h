@@ -43,7 +43,7 @@ struct DeviationGrowth {
 struct RiskParameters {
   double max_risk = 0.001;  ///< the chance constraint of the paper
   DeviationGrowth horizontal{.base_m = 0.04, .per_speed_s = 0.002, .per_time_m_s = 0.03};
-  DeviationGrowth vertical{.base_m = 0.03, .per_speed_s = 0.002, .per_time_m_s = 0.03};
+  DeviationGrowth vertical{.base_m = 0.04, .per_speed_s = 0.002, .per_time_m_s = 0.03};
   double bubble_margin_m = 0.2;  ///< beyond the vehicle's radius: where no frustum reaches
   CollisionParameters collision;
   QueryOptions query;

@@ -36,14 +36,15 @@ Section mavlinkSection() {
        durationKey(
            "tilt_lag_s",
            "The acceleration told is that of so much later still, as the vehicle has to tilt before it accelerates:\n"
-           "the time constant of its attitude. Too little leaves it behind, too much ahead. Set drag_1_s as well: in\n"
-           "a brake the two oppose each other, and one without the other is worse than neither.",
+           "the time constant of its attitude. Too little leaves it behind, too much ahead. Set drag_1_s as well: the\n"
+           "lag told without the drag may be worse than neither.",
            {0.0, 0.5}, [](auto& c) -> auto& { return c.mavlink.feedforward.tilt_lag; }),
        numberKey(
            "drag_1_s",
            "And this times the velocity is added [1/s], for the drag of the air, which autopilots do not know: 9.81\n"
-           "times the tilt [rad] that holds a steady speed in still air, divided by that speed [m/s].",
-           {0.0, 2.0}, [](auto& c) -> auto& { return c.mavlink.feedforward.drag_1_s; }),
+           "times the tilt [rad] that holds a steady speed in still air, divided by that speed [m/s]. Rather too\n"
+           "little than too much: with half of it the vehicle follows better, with thrice much worse than without.",
+           {0.0, 1.0}, [](auto& c) -> auto& { return c.mavlink.feedforward.drag_1_s; }),
        booleanKey(
            "send_obstacles", "Send OBSTACLE_DISTANCE: the nearest obstacles of the newest depth frame, by bearing.",
            [](auto& c) -> auto& { return c.mavlink.send_obstacles; }),
@@ -118,8 +119,10 @@ Section safetySection() {
       "and\n"
       "after it nothing is sent any more, so that the autopilot's own failsafe acts.",
       {durationKey(
-           "max_plan_age_s", "Of the plan that is flown. planner.brake_after_s must cover it.", kDuration_s,
-           [](auto& c) -> auto& { return c.safety.max_plan_age; }),
+           "max_plan_age_s",
+           "Of the plan that is flown. planner.brake_after_s must cover it, and mavlink.setpoint_lead_s and "
+           "tilt_lag_s.",
+           kDuration_s, [](auto& c) -> auto& { return c.safety.max_plan_age; }),
        durationKey(
            "max_depth_age_s", "Of the newest depth frame, from its exposure.", kDuration_s,
            [](auto& c) -> auto& { return c.safety.max_depth_age; }),

@@ -58,6 +58,7 @@ class Reader {
     checkRecorder();
     checkOdometry();
     checkAlignment();
+    checkFeedforward();
     if (!faults_.empty()) throw ConfigurationError(fmt::format("{}", fmt::join(faults_, "\n")));
     return configuration_;
   }
@@ -173,6 +174,20 @@ class Reader {
       faults_.push_back(fmt::format("[alignment]: max_age_s = {:g} must be at least {:g} / mavlink.pose_rate_hz = {:g}",
                                     toSeconds(mavlink.alignment.max_age), kLeastPoses,
                                     kLeastPoses / mavlink.link.pose_rate_hz));
+    }
+  }
+
+  /// What is flown of a plan leads on to its brake.
+  void checkFeedforward() {
+    const Feedforward& feedforward = configuration_.mavlink.feedforward;
+    const double ahead_s = toSeconds(feedforward.setpoint_lead + feedforward.tilt_lag);
+    const double age_s = toSeconds(configuration_.safety.max_plan_age);
+    const double brake_after_s = configuration_.planner.brake_after_s;
+    if (age_s + ahead_s > brake_after_s) {
+      faults_.push_back(fmt::format(
+          "[planner]: brake_after_s = {:g} must be at least {:g}, safety.max_plan_age_s with mavlink.setpoint_lead_s "
+          "and tilt_lag_s: else plans are told with the acceleration of their brakes",
+          brake_after_s, age_s + ahead_s));
     }
   }
 

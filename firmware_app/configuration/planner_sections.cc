@@ -220,8 +220,8 @@ Section riskSection() {
            [](auto& c) -> auto& { return c.planner.risk.collision.measured_point_variance_m2; }),
        numberKey(
            "horizontal_base_m",
-           "Standard deviation, along each horizontal axis, of where the vehicle will be on a motion, beside what\n"
-           "it is off it by already (nanomap-report LOG --tracking compares that with a flight): this,",
+           "Standard deviation, along each horizontal axis, of where the vehicle will be on a motion, apart from how\n"
+           "far it is off that already (nanomap-report LOG --tracking compares it with a flight): this,",
            kDeviation, [](auto& c) -> auto& { return c.planner.risk.horizontal.base_m; }),
        numberKey(
            "horizontal_per_speed_s", "plus this times its speed there,", kDeviation,

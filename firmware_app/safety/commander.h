@@ -66,7 +66,8 @@ struct Command {
 };
 
 /// Makes the setpoint of each moment: the state machine says which stream, the motion in force where to. A setpoint is
-/// never repeated; each is sampled for its own moment, which is when the autopilot acts on it.
+/// never repeated; each is sampled for its own moment, which is when the autopilot acts on it, and leads by what the
+/// vehicle is behind (Feedforward).
 /// A function of what it was given, in that order. Threads: one. Allocates: no.
 class Commander {
  public:

@@ -154,6 +154,14 @@ TEST(Load, AlignmentIsNotSilentByTheRateOfItsOwnStream) {
   EXPECT_EQ(refusal("[mavlink]\npose_rate_hz = 5\n[alignment]\nmax_age_s = 0.8\n"), "");
 }
 
+TEST(Load, NoPlanIsToldWithTheAccelerationOfItsBrake) {
+  EXPECT_THAT(refusal("[mavlink]\ntilt_lag_s = 0.2\n"),
+              HasSubstr("[planner]: brake_after_s = 0.25 must be at least 0.365, safety.max_plan_age_s with"));
+  EXPECT_EQ(refusal("[mavlink]\ntilt_lag_s = 0.2\n[planner]\nbrake_after_s = 0.37\n"), "");
+  EXPECT_EQ(refusal("[mavlink]\ntilt_lag_s = 0.2\n[safety]\nmax_plan_age_s = 0.03\n"), "");
+  EXPECT_THAT(refusal("[safety]\nmax_plan_age_s = 0.2\n"), HasSubstr("must be at least 0.295"));
+}
+
 TEST(Load, UnknownKeySuggestsTheOneMeant) {
   EXPECT_EQ(refusal("[history]\n\nveiws = 3\n"),
             "drone.toml:3: unknown key 'history.veiws': did you mean 'history.views'?");
