@@ -35,15 +35,15 @@ class TrackingAllowance:
     recovery_s: float  # planner/aside.h
 
 
-def read_limits(config: Path | None) -> Limits:
-    """Of a configuration file; what it leaves out, or None, is the module's default."""
-    value = _values(config)
+def read_limits(told: dict) -> Limits:
+    """Of a configuration, section by section; what it leaves out is the module's default."""
+    value = _values(told)
     return Limits(max_risk=value("risk", "max_risk"), vehicle_radius_m=value("vehicle", "radius_m"))
 
 
-def read_tracking_allowance(config: Path | None) -> TrackingAllowance:
+def read_tracking_allowance(told: dict) -> TrackingAllowance:
     """Likewise."""
-    value = _values(config)
+    value = _values(told)
 
     def growth(direction: str) -> DeviationGrowth:
         return DeviationGrowth(*(value("risk", f"{direction}_{key}") for key in
@@ -52,7 +52,6 @@ def read_tracking_allowance(config: Path | None) -> TrackingAllowance:
     return TrackingAllowance(growth("horizontal"), growth("vertical"), value("tracking", "recovery_s"))
 
 
-def _values(config: Path | None) -> Callable[[str, str], float]:
-    told = tomllib.loads(config.read_text()) if config else {}
+def _values(told: dict) -> Callable[[str, str], float]:
     defaults = tomllib.loads(DEFAULTS.read_text())
     return lambda section, key: float(told.get(section, {}).get(key, defaults[section][key]))

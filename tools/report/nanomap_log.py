@@ -15,6 +15,7 @@ import nanomap
 import numpy as np
 
 FINGERPRINT_BYTES = 8
+CONFIGURATION_CHANNEL = "NANOMAP_CONFIG"  # firmware_app/configuration/configuration.h
 
 
 class Status(IntEnum):
@@ -66,9 +67,14 @@ class Channels:
         return {self.health_channel: nanomap.health_t}
 
 
-def read_channels(config: Path | None) -> Channels:
-    """The channels of a configuration file; None: the defaults."""
-    section = tomllib.loads(config.read_text()).get("lcm", {}) if config else {}
+def read_told(config: Path | None) -> dict:
+    """What a configuration file tells, section by section; None: nothing."""
+    return tomllib.loads(config.read_text()) if config else {}
+
+
+def read_channels(told: dict) -> Channels:
+    """The channels that a configuration tells, and the defaults of the others."""
+    section = told.get("lcm", {})
     return Channels(**{field.name: section[field.name] for field in fields(Channels) if field.name in section})
 
 
@@ -113,6 +119,22 @@ def events(path: Path, types: dict[str, type]) -> list[Event]:
         except (ValueError, IndexError, struct.error) as error:
             raise ValueError(f"{path}: damaged {message_type.__name__} at log time {raw.timestamp} us") from error
     return sorted(found, key=lambda event: event.log_utime)
+
+
+@dataclass(frozen=True)
+class Configuration:
+    told: dict  # section by section; what is not in it is the module's default
+    origin: str
+
+
+def choose_configuration(log: Path, config: Path | None) -> Configuration:
+    """As nanomap-replay chooses: the file, else what the log was recorded with, else the defaults."""
+    if config:
+        return Configuration(read_told(config), str(config))
+    recorded = events(log, {CONFIGURATION_CHANNEL: nanomap.text_t})
+    if recorded:
+        return Configuration(tomllib.loads(recorded[0].message.text), "the configuration it was recorded with")
+    return Configuration({}, "the defaults")
 
 
 def depth_counts(image: nanomap.depth_image_t) -> np.ndarray:

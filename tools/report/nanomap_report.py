@@ -15,7 +15,7 @@ import tracking
 from flight import gather_flight
 from limits import read_limits, read_tracking_allowance
 from moment import gather
-from nanomap_log import read_channels
+from nanomap_log import choose_configuration, read_channels
 
 
 def parse_arguments() -> argparse.Namespace:
@@ -32,7 +32,8 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--at", type=float, metavar="S", help="moment of the answers, in seconds after the log's first "
                         "event; by default one where many points are answered by views that are not the newest")
     parser.add_argument("--config", type=Path, help="configuration of the replay, for its channel names, the chance "
-                        "constraint, the vehicle's radius and how far it may stray")
+                        "constraint, the vehicle's radius and how far it may stray; by default what a flight was "
+                        "recorded with")
     arguments = parser.parse_args()
     if arguments.at is not None and not arguments.answers:
         parser.error("--at tells a moment of ANSWERS; --decisions and --tracking are of the whole flight")
@@ -42,12 +43,13 @@ def parse_arguments() -> argparse.Namespace:
 
 
 def report(arguments: argparse.Namespace) -> None:
-    channels = read_channels(arguments.config)
+    configuration = choose_configuration(arguments.log, arguments.config)
+    channels = read_channels(configuration.told)
     if arguments.tracking:
         print(tracking.words(tracking.gather_followed(arguments.log, channels),
-                             read_tracking_allowance(arguments.config)))
+                             read_tracking_allowance(configuration.told), configuration.origin))
     elif arguments.decisions:
-        flight = gather_flight(arguments.log, arguments.decisions, channels, read_limits(arguments.config))
+        flight = gather_flight(arguments.log, arguments.decisions, channels, read_limits(configuration.told))
         flight_picture.draw(flight, arguments.out)
     else:
         moment_picture.draw(gather(arguments.log, arguments.answers, channels, arguments.at), arguments.out)

@@ -13,7 +13,10 @@ from nanomap_log import Channels, events
 AHEAD_S = (0.2, 0.5, 1.0, 1.5, 2.0)
 OF_RETURN = 0.25  # planner/aside.h
 LONGEST_GAP_S = 0.2  # without a new decision the vehicle may be in other hands
+NOTHING_VERIFIED = "nothing is safe, not even stopping: keep to the last verified brake"  # core/decision.cc
 TOLERANCE = 1.2  # figures of one flight are no better known
+SLOWEST_PERIOD_S = 0.1  # of poses that pair
+MOST_BEYOND_THREE = 0.01  # 0.0027 of what is normally distributed is
 LEAST_SPEED_M_S = 1.0  # slower than that, motions have no direction to be behind in
 
 
@@ -24,6 +27,7 @@ class Followed:
     times_s: np.ndarray
     offsets_m: np.ndarray  # from where the vehicle should be to where it is
     velocities_m_s: np.ndarray  # that it should have
+    runs: np.ndarray  # counts on with each interruption: other hands, another world, a motion without a verified brake
 
 
 @dataclass(frozen=True)
@@ -40,37 +44,60 @@ class Strayed:
     @property
     def is_covered(self) -> bool:
         return (self.horizontal_m <= TOLERANCE * self.horizontal_allowed_m and
-                self.vertical_m <= TOLERANCE * self.vertical_allowed_m)
+                self.vertical_m <= TOLERANCE * self.vertical_allowed_m and
+                self.beyond_three <= MOST_BEYOND_THREE)
 
 
 def gather_followed(log: Path, channels: Channels) -> Followed:
     """Raises ValueError naming the log if it holds no flight by verified motions."""
-    found = events(log, {**channels.decisions(), channels.pose_channel: nanomap.body_pose_t})
-    messages = [event.message for event in found]
-    decisions = [d for d in messages if isinstance(d, nanomap.decision_t) and d.flown and d.has_motion and d.has_brake]
-    decisions.sort(key=lambda decision: decision.utime)
-    motions = [Motion(decision.brake) for decision in decisions]
-    utimes = np.array([decision.utime for decision in decisions], dtype=np.int64)
-    if not decisions:
+    messages = [event.message for event in events(log, {**channels.decisions(),
+                                                        channels.pose_channel: nanomap.body_pose_t})]
+    decisions = sorted((m for m in messages if isinstance(m, nanomap.decision_t)), key=lambda m: m.utime)
+    poses = sorted((m for m in messages if isinstance(m, nanomap.body_pose_t)), key=lambda m: m.utime)
+    in_force = _in_force(decisions)
+    if not any(in_force):
         raise ValueError(f"{log}: holds no decisions that were flown by verified motions")
+    utimes = np.array([decision.utime for decision in decisions], dtype=np.int64)
+    motions = [Motion(decision.brake) if decision else None for decision in in_force]
     rows = []
-    for pose in sorted((m for m in messages if isinstance(m, nanomap.body_pose_t)), key=lambda pose: pose.utime):
+    run, epoch = 0, None
+    for pose in poses:
         index = int(np.searchsorted(utimes, pose.utime, side="right")) - 1
-        elapsed_s = (pose.utime - utimes[index]) / US_PER_S
-        if index < 0 or elapsed_s > LONGEST_GAP_S or pose.epoch != decisions[index].epoch:
+        followed = in_force[index] if index >= 0 else None
+        elapsed_s = (pose.utime - followed.utime) / US_PER_S if followed else None
+        if not followed or elapsed_s > LONGEST_GAP_S or pose.epoch != followed.epoch:
+            epoch = None
             continue
+        if pose.epoch != epoch:
+            run, epoch = run + 1, pose.epoch
         told = motions[index].at([elapsed_s])
         rows.append((pose.utime / US_PER_S, np.array(pose.world_from_body.translation) - told.position[0],
-                     told.velocity[0]))
+                     told.velocity[0], run))
     if not rows:
-        raise ValueError(f"{log}: holds no poses from when verified motions were flown")
-    times_s, offsets_m, velocities_m_s = zip(*rows)
-    return Followed(np.array(times_s), np.array(offsets_m), np.array(velocities_m_s))
+        raise ValueError(f"{log}: holds no poses (nanomap.body_pose_t on {channels.pose_channel}, of the clock that "
+                         "decisions are of: lcm.clock = \"monotonic\") from when verified motions were flown")
+    return Followed(*(np.array(column) for column in zip(*rows)))
+
+
+def _in_force(decisions: list[nanomap.decision_t]) -> list[nanomap.decision_t | None]:
+    """The verified motion that is flown from each decision on, by planner/receding_horizon.h."""
+    found: list[nanomap.decision_t | None] = []
+    for decision in decisions:
+        before = found[-1] if found else None
+        if not decision.flown:
+            found.append(None)
+        elif decision.has_motion and decision.has_brake:
+            found.append(decision)
+        elif decision.has_motion and decision.reason != NOTHING_VERIFIED:
+            found.append(None)  # flown, and not held to anything
+        else:
+            found.append(before)
+    return found
 
 
 def strayed(followed: Followed, ahead_s: float, allowance: TrackingAllowance) -> Strayed | None:
     """None: no moment is followed by one that much later."""
-    before, after = _pairs(followed.times_s, ahead_s)
+    before, after = _pairs(followed, ahead_s)
     if len(before) == 0:
         return None
     recovery_s = allowance.recovery_s
@@ -87,18 +114,21 @@ def strayed(followed: Followed, ahead_s: float, allowance: TrackingAllowance) ->
                    _rms(allowed_m[:, 2]), float(np.mean(np.abs(residuals_m) > 3.0 * allowed_m)))
 
 
-def words(followed: Followed, allowance: TrackingAllowance) -> str:
+def words(followed: Followed, allowance: TrackingAllowance, origin: str) -> str:
+    """`origin`: of the allowance. Raises ValueError if the flight is too short."""
     rows = [row for row in (strayed(followed, ahead_s, allowance) for ahead_s in AHEAD_S) if row]
+    if not rows:
+        raise ValueError(f"no two poses of one flight by verified motions lie {AHEAD_S[0]} s apart")
     lines = [_offsets(followed), "",
-             "Off where it was expected, root mean square of one axis, and what plans allow for [m]:",
-             "  after    horizontally       vertically         more than 3 times that"]
+             "Off where it was expected, root mean square of one axis, and what plans allow for [m],",
+             f"by {origin}:",
+             "  after    horizontally       vertically         more than 3 times that (0.27 % if normal)"]
     lines += [f"  {row.ahead_s:.1f} s    {row.horizontal_m:.3f} of {row.horizontal_allowed_m:.3f}     "
               f"{row.vertical_m:.3f} of {row.vertical_allowed_m:.3f}     {100 * row.beyond_three:.2f} %"
               for row in rows]
-    short = [row for row in rows if not row.is_covered]
-    if short:
-        lines += ["", "Plans allow for less than this vehicle strays by: raise [risk] horizontal_* or vertical_*, or have "
-                  "it follow better", "([mavlink] setpoint_lead_s, tilt_lag_s, drag_1_s)."]
+    if not all(row.is_covered for row in rows):
+        lines += ["", "Plans allow for less than this vehicle strays by: raise [risk] horizontal_* or vertical_*, or "
+                  "have it follow better", "([mavlink] setpoint_lead_s, tilt_lag_s, drag_1_s)."]
     return "\n".join(lines)
 
 
@@ -115,12 +145,16 @@ def _offsets(followed: Followed) -> str:
     return f"{said}; on the way {abs(mean_m):.3f} m {'ahead' if mean_m > 0 else 'behind'} in the mean."
 
 
-def _pairs(times_s: np.ndarray, ahead_s: float) -> tuple[np.ndarray, np.ndarray]:
-    """Rows that lie `ahead_s` apart, as nearly as there are any, and to a hundredth of a second."""
+def _pairs(followed: Followed, ahead_s: float) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of one run that lie `ahead_s` apart, as nearly as the poses' period lets them."""
+    times_s = followed.times_s
+    if len(times_s) < 2:
+        return np.array([], dtype=int), np.array([], dtype=int)
     wanted_s = times_s + ahead_s
     after = np.clip(np.searchsorted(times_s, wanted_s), 1, len(times_s) - 1)
     after -= wanted_s - times_s[after - 1] < times_s[after] - wanted_s
-    near = np.abs(times_s[after] - wanted_s) <= 0.01
+    near = np.abs(times_s[after] - wanted_s) <= min(0.5 * np.median(np.diff(times_s)), SLOWEST_PERIOD_S / 2)
+    near &= followed.runs[after] == followed.runs
     return np.flatnonzero(near), after[near]
 
 

@@ -10,7 +10,7 @@ from chain import Chain
 from check_answers import feed
 from evidence import Space
 from in_force import InForce
-from nanomap_log import events, read_channels
+from nanomap_log import events, read_channels, read_told
 from planner_settings import read_planner_settings
 from planted import PLANTED, plant
 from settings import read_settings
@@ -55,7 +55,7 @@ def check(log: Path, decisions: Path, config: Path, overrides: list[str]) -> Out
     """
     chain = Chain(read_settings(config, overrides))
     settings = read_planner_settings(config, overrides)
-    channels = read_channels(config)
+    channels = read_channels(read_told(config))
     outcome = Outcome()
     in_force = InForce(settings)
     cameras, poses, points = {}, {}, {}

@@ -7,7 +7,7 @@ import nanomap
 from chain import Chain
 from compare import Tally, compare
 from mutations import MUTATIONS, mutants
-from nanomap_log import events, read_channels
+from nanomap_log import events, read_channels, read_told
 from settings import read_settings
 from view import Camera, View
 
@@ -53,7 +53,7 @@ def check(log: Path, answers: Path, config: Path, overrides: list[str], sample: 
     cameras: dict[str, Camera] = {}
     tally = Tally()
     unseen: list[str] | None = None
-    channels = read_channels(config)
+    channels = read_channels(read_told(config))
     told = (event.message for event in events(answers, channels.answers()))
     count = 0
     for event in events(log, channels.inputs()):

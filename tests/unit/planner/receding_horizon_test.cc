@@ -281,7 +281,8 @@ TEST_F(RecedingHorizonOverAField, ExplainingTakesNothingIntoForce) {
   EXPECT_FALSE(horizon_.inForce());
 }
 
-/// A brake that was verified ends where it was verified to, whatever brakes that begin anew would do.
+/// A brake that was verified ends where it was verified to, whatever brakes that begin anew would do. Once it stands, the
+/// vehicle looks for a way round the wall, and away from it where it is too near, which is another matter.
 TEST(RecedingHorizon, TowardsAWallEveryPlanIsVerified) {
   int kept = 0;
   for (const double distance_m : {6.0, 8.0, 10.0, 12.0}) {

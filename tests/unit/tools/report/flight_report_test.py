@@ -19,7 +19,7 @@ from flight import Flight, gather_flight
 from flight_summary import summarise
 from limits import DEFAULTS, Limits, read_limits
 from map_frame import Frame, around
-from nanomap_log import Channels, Status
+from nanomap_log import Channels, Status, read_told
 from outcomes import OUTCOMES, Outcome
 from seen_points import CLEARANCE_WITHIN_S, gather_seen_points
 from synthetic_log import FRAME_US, HEIGHT, START_US, WIDTH, camera, decision, depth, goal, health, pose, write
@@ -93,8 +93,8 @@ class LimitsTest(TemporaryFolderTest):
         defaults = tomllib.loads(DEFAULTS.read_text())
         config = self.folder / "c.toml"
         config.write_text("[risk]\nmax_risk = 0.25\n")
-        self.assertEqual(read_limits(config), Limits(0.25, defaults["vehicle"]["radius_m"]))
-        self.assertEqual(read_limits(None), Limits(defaults["risk"]["max_risk"], defaults["vehicle"]["radius_m"]))
+        self.assertEqual(read_limits(read_told(config)), Limits(0.25, defaults["vehicle"]["radius_m"]))
+        self.assertEqual(read_limits({}), Limits(defaults["risk"]["max_risk"], defaults["vehicle"]["radius_m"]))
 
 
 class MeasuredPoints(unittest.TestCase):

@@ -6,7 +6,7 @@ import nanomap
 import numpy as np
 from cases import ProgramTest, TemporaryFolderTest
 from moment import gather
-from nanomap_log import Channels, depth_counts, events, matrix, read_channels
+from nanomap_log import Channels, depth_counts, events, matrix, read_channels, read_told
 from synthetic_log import FRAME_US, START_US, answers, camera, depth, pose, write, write_flight
 from track import Track
 
@@ -52,8 +52,8 @@ class Events(TemporaryFolderTest):
     def test_channels_come_from_configuration(self):
         config = self.folder / "c.toml"
         config.write_text('[lcm]\npose_channel = "VIO"\ngoal_channel = "G"\n')
-        self.assertEqual(read_channels(config), Channels(pose_channel="VIO", goal_channel="G"))
-        self.assertEqual(read_channels(None), Channels())
+        self.assertEqual(read_channels(read_told(config)), Channels(pose_channel="VIO", goal_channel="G"))
+        self.assertEqual(read_channels(read_told(None)), Channels())
 
 
 class TrackTest(unittest.TestCase):
