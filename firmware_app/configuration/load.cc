@@ -180,14 +180,13 @@ class Reader {
   /// What is flown of a plan leads on to its brake.
   void checkFeedforward() {
     const Feedforward& feedforward = configuration_.mavlink.feedforward;
-    const double ahead_s = toSeconds(feedforward.setpoint_lead + feedforward.tilt_lag);
-    const double age_s = toSeconds(configuration_.safety.max_plan_age);
+    const Duration least = configuration_.safety.max_plan_age + feedforward.setpoint_lead + feedforward.tilt_lag;
     const double brake_after_s = configuration_.planner.brake_after_s;
-    if (age_s + ahead_s > brake_after_s) {
+    if (fromSeconds(brake_after_s) < least) {
       faults_.push_back(fmt::format(
           "[planner]: brake_after_s = {:g} must be at least {:g}, safety.max_plan_age_s with mavlink.setpoint_lead_s "
           "and tilt_lag_s: else plans are told with the acceleration of their brakes",
-          brake_after_s, age_s + ahead_s));
+          brake_after_s, toSeconds(least)));
     }
   }
 

@@ -9,11 +9,11 @@ from inputs import US_PER_S
 from limits import TrackingAllowance
 from motion import Motion
 from nanomap_log import Channels, events
+from outcomes import Outcome, outcome
 
 AHEAD_S = (0.2, 0.5, 1.0, 1.5, 2.0)
 OF_RETURN = 0.25  # planner/aside.h
 LONGEST_GAP_S = 0.2  # without a new decision the vehicle may be in other hands
-NOTHING_VERIFIED = "nothing is safe, not even stopping: keep to the last verified brake"  # core/decision.cc
 TOLERANCE = 1.2  # figures of one flight are no better known
 SLOWEST_PERIOD_S = 0.1  # of poses that pair
 MOST_BEYOND_THREE = 0.01  # 0.0027 of what is normally distributed is
@@ -88,7 +88,7 @@ def _in_force(decisions: list[nanomap.decision_t]) -> list[nanomap.decision_t | 
             found.append(None)
         elif decision.has_motion and decision.has_brake:
             found.append(decision)
-        elif decision.has_motion and decision.reason != NOTHING_VERIFIED:
+        elif decision.has_motion and outcome(decision) is not Outcome.NOTHING_VERIFIED:
             found.append(None)  # flown, and not held to anything
         else:
             found.append(before)

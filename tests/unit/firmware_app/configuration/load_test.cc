@@ -157,7 +157,7 @@ TEST(Load, AlignmentIsNotSilentByTheRateOfItsOwnStream) {
 TEST(Load, NoPlanIsToldWithTheAccelerationOfItsBrake) {
   EXPECT_THAT(refusal("[mavlink]\ntilt_lag_s = 0.2\n"),
               HasSubstr("[planner]: brake_after_s = 0.25 must be at least 0.365, safety.max_plan_age_s with"));
-  EXPECT_EQ(refusal("[mavlink]\ntilt_lag_s = 0.2\n[planner]\nbrake_after_s = 0.37\n"), "");
+  EXPECT_EQ(refusal("[mavlink]\ntilt_lag_s = 0.2\n[planner]\nbrake_after_s = 0.365\n"), "");
   EXPECT_EQ(refusal("[mavlink]\ntilt_lag_s = 0.2\n[safety]\nmax_plan_age_s = 0.03\n"), "");
   EXPECT_THAT(refusal("[safety]\nmax_plan_age_s = 0.2\n"), HasSubstr("must be at least 0.295"));
 }

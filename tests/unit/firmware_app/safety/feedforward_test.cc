@@ -28,9 +28,8 @@ Trajectory dash() {
 }
 
 /// How far a simulated vehicle gets from the motion that it is told, at the most.
-double farthestOff_m(const Feedforward& feedforward) {
+double farthestOff_m(const Feedforward& feedforward, const Trajectory& motion_W = dash()) {
   constexpr Duration kPeriod = std::chrono::milliseconds(10);
-  const Trajectory motion_W = dash();
   simulation::Multicopter vehicle({}, Vec3::Zero(), 0.0);
   simulation::PositionController controller({});
   double farthest_m = 0.0;
@@ -88,6 +87,25 @@ TEST(Feedforward, VehicleWithOtherValuesIsNoWorseOffThanWithoutAny) {
                             .drag_1_s = share * Feedforward{}.drag_1_s};
     EXPECT_LT(farthestOff_m(other), without_m) << share;
   }
+}
+
+TEST(Feedforward, RatherTooLittleDragThanTooMuch) {
+  const auto withDrag_m = [](double share) {
+    return farthestOff_m({.setpoint_lead = Duration::zero(), .drag_1_s = share * Feedforward{}.drag_1_s});
+  };
+  EXPECT_LT(withDrag_m(0.5), farthestOff_m(kNone));
+  EXPECT_GT(withDrag_m(3.0), 1.5 * farthestOff_m(kNone));
+}
+
+/// No tilt comes first there, and the acceleration is told by the same lag: hardly worse than without.
+TEST(Feedforward, VehicleThatRisesIsNotFarOff) {
+  Trajectory rise_W(atMs(1000), {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
+  for (const double jerk_m_s3 : {10.0, -10.0}) {
+    rise_W.append(0.2, {0.0, 0.0, jerk_m_s3});
+    rise_W.append(0.8, Vec3::Zero());
+    rise_W.append(0.2, {0.0, 0.0, -jerk_m_s3});
+  }
+  EXPECT_LT(farthestOff_m({.setpoint_lead = Duration::zero()}, rise_W), 0.03);
 }
 
 }  // namespace
